@@ -24,6 +24,7 @@ from limitblocks.analysis.unique import Yielding
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import refuse_kind
 from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.determined import determined
 from limitblocks.evidence.sensitivity_result import LoadPosition, Sensitivities
 from limitblocks.geometry import Interface
 from limitblocks.joints.base import joint_of
@@ -76,7 +77,7 @@ def sensitivities(model: Model, bounds: Bounds) -> Sensitivities:
         weights=read_only(np.array([block.unit_weight or 0.0 for block in model.blocks])),
         frictions=read_only(np.array([_number(joint_of(i), "friction") for i in model.interfaces])),
         unique=yielding.alone,
-        agreed=_agreed(model, si, friction, yielding),
+        agreed=_agreed(model, si, friction),
         blocks=tuple(block.name for block in model.blocks),
         interfaces=tuple(interface.name for interface in model.interfaces),
         digest=model.digest,
@@ -164,7 +165,7 @@ def _by_joints(model: Model, si: State, word: str) -> Array:
     return read_only(np.where(has, (ahead - back) / change, np.nan))
 
 
-def _agreed(model: Model, si: State, friction: Array, yielding: Yielding) -> npt.NDArray[np.bool_]:
+def _agreed(model: Model, si: State, friction: Array) -> npt.NDArray[np.bool_]:
     """Whether all stress states agree on the derivative by the friction of each interface, shape (m,)."""
     problem = model.problem
     change = []
@@ -176,7 +177,8 @@ def _agreed(model: Model, si: State, friction: Array, yielding: Yielding) -> npt
     functionals = sparse.csr_array(change[0] - change[1])
     matters = np.nan_to_num(np.abs(friction)) > NOTHING * np.nanmax(np.abs(friction), initial=0.0)
     agreed = np.ones(len(problem.interfaces), dtype=bool)
-    agreed[matters] = yielding.agreed(functionals[np.flatnonzero(matters)])
+    y, asked = problem.dimensionless(si).y, functionals[np.flatnonzero(matters)]
+    agreed[matters] = determined(problem, y, asked, load_factor=True)
     agreed.flags.writeable = False
     return agreed
 

@@ -1,4 +1,4 @@
-"""Whether the mechanism of a pair of bounds is the only one, and what its stress states agree on."""
+"""Whether the mechanism of a pair of bounds is the only one."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy import sparse
 from scipy.sparse import linalg
 
@@ -15,10 +14,8 @@ from limitblocks.problem import LimitProblem, State
 
 YIELDING = 1e-6  # of the largest strain rate: less is no flow
 SINGULAR = 1e-8  # least eigenvalue over the diagonal, below which another mechanism exists
-SAME = 1e-5  # of a functional: what is left of it where all stress states agree on its value
 ROUNDS = 8  # of the inverse power method
 REGULAR = 1e-13
-MANY = 100  # right-hand sides at a time
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,21 +79,3 @@ class Yielding:
             onward = lu.solve(np.append(v, rest))[: len(v)]
             eigenvalue, v = 1.0 / abs(float(v @ onward)), onward
         return bool(eigenvalue > SINGULAR * scale)
-
-    def agreed(self, functionals: sparse.csr_array) -> npt.NDArray[np.bool_]:
-        """Whether functionals (k, s) have one value at all stress states of the load factor, shape (k,).
-
-        Those states differ by dx with C^T dx = 0 and, at the rows that flow, F dx = 0 (complementarity): the
-        value is the same where the functional is a sum of columns of C and of directions of flow.
-        """
-        p, D, (lu, _) = self.problem, self.flows, self._factors
-        both = sparse.csr_array(sparse.hstack([p.C, D.T]))
-        agree = []
-        for first in range(0, functionals.shape[0], MANY):
-            given = functionals[first : first + MANY].toarray().T
-            size = np.linalg.norm(given, axis=0)
-            left = given
-            for _ in range(2):
-                left = left - both @ lu.solve(both.T @ left)
-            agree.append(np.linalg.norm(left, axis=0) <= SAME * size)
-        return np.concatenate(agree) if agree else np.zeros(0, dtype=bool)

@@ -102,11 +102,6 @@ class Contact:
         """Corners that rest on a face, global axes, m, shape (k, 3)."""
         return np.where(self.on_face_i[:, None], self.on_j, self.on_i)
 
-    @property
-    def seats(self) -> tuple[Array, Array]:
-        """Material points of blocks i and j that a gap is between, shapes (k, 3): of a tie its anchors."""
-        return (self.on_i, self.on_j) if self.tied else (self.rest, self.rest)
-
     @cached_property
     def line(self) -> Array:
         """Direction of a tie from block i to block j, shape (3,); a strip is normal to its joint."""

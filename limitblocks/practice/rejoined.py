@@ -73,7 +73,7 @@ def rows_of(assembly: Assembly) -> sparse.csr_array:
     """Return the rates of the ways of all contacts in the rates of the blocks, shape (3 k, 6 n)."""
     centres = np.stack([block.centroid for block in assembly.model.blocks])
     parts = [
-        (sign, own.ends[side], own.seats[side], own.axes)
+        (sign, own.ends[side], own.rest, own.axes)
         for own in assembly.contacts
         for side, sign in ((0, -1.0), (1, 1.0))
     ]

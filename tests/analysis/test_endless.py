@@ -74,7 +74,7 @@ def test_a_push_without_end_has_the_stiffness_of_the_increments(softer, monkeypa
     assert ratio[shear] / ratio[~shear][0] == pytest.approx(softer)
 
 
-def met(monkeypatch, *ends):
+def met(monkeypatch, *ends, began=True):
     """What `endless` takes of ends that are solutions, at these shares of the last load factor."""
     flow, state = solution()
     given = SimpleNamespace(flow=flow, tolerance=1e-6)
@@ -89,7 +89,7 @@ def met(monkeypatch, *ends):
             yield replace(state, load_factor=share * state.load_factor), how
 
     monkeypatch.setattr(endless, "_ways", ways)
-    found = endless.endless(given, state)
+    found = endless.endless(given, state, began)
     return (None if found is None else found[1]), tried
 
 
@@ -103,6 +103,10 @@ def test_else_the_nearest(monkeypatch):
 
 def test_but_none_that_is_far(monkeypatch):
     assert met(monkeypatch, (1.11, "a"), (0.89, "b"))[0] is None
+
+
+def test_where_no_increment_began_it_is_the_first_however_far(monkeypatch):
+    assert met(monkeypatch, (1.4, "a"), (1.05, "b"), began=False) == ("a", ["a"])
 
 
 def test_nor_one_whose_load_factor_still_changes(monkeypatch):
