@@ -11,7 +11,6 @@ from limitblocks.problem import Flow, State
 
 YIELDS = 1e-6  # of the force of an interface: rows closer than this to yield may flow
 METHODS = ("highs-ipm", "highs-ds")  # each ends without an answer where the other has one
-WITHOUT_PRESOLVE = {"presolve": False}  # which calls programs of nearly dependent rows infeasible
 
 
 def change_of_mechanism(flow: Flow, state: State, functional: Array) -> float | None:
@@ -28,12 +27,17 @@ def change_of_mechanism(flow: Flow, state: State, functional: Array) -> float | 
     strains = sparse.csr_array(flow.matrix(state.x).T @ sparse.hstack([own, free]))
     k, largest = own.shape[1], float(np.abs(p.C @ state.u).max())
     size = abs(strains).max(axis=0).toarray().ravel()[k:]
-    unit = np.append(np.ones(k), largest / np.maximum(size, np.finfo(float).tiny))
+    unit = np.append(np.ones(k) / largest, 1.0 / np.maximum(size, np.finfo(float).tiny))
+    rate = float(np.abs(state.u).max())
     A = sparse.block_array(
-        [[p.C, strains @ sparse.diags_array(unit)], [sparse.csr_array(p.live[None]), None]], format="csr"
+        [
+            [p.C * (rate / largest), strains @ sparse.diags_array(unit)],
+            [sparse.csr_array(p.live[None] / np.abs(p.live).max()), None],
+        ],
+        format="csr",
     )
     bounds = [(None, None)] * n + [(-1.0, 1.0)] * k + [(0.0, 1.0)] * free.shape[1]
-    goal, changes = np.append(functional, np.zeros(strains.shape[1])), []
+    goal, changes = np.append(rate * functional, np.zeros(strains.shape[1])), []
     for sign in (1.0, -1.0):
         for method in METHODS:
             found = linear_program(
@@ -42,7 +46,6 @@ def change_of_mechanism(flow: Flow, state: State, functional: Array) -> float | 
                 b_eq=np.zeros(A.shape[0]),
                 bounds=bounds,
                 method=method,
-                options=WITHOUT_PRESOLVE,
             )
             if found.status == 0:
                 changes.append(abs(float(found.fun)))

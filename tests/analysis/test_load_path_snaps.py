@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis.nonassociated import each_way, loading, loop
+from limitblocks.analysis.nonassociated import each_way, loaded, loading, loop
 from limitblocks.analysis.nonassociated import increment as increments
 from limitblocks.analysis.nonassociated.increment import Increment, Tried
 from limitblocks.analysis.nonassociated.permanent import permanent_state
@@ -312,10 +312,15 @@ def test_a_polish_that_leads_elsewhere_is_no_end_of_increments(monkeypatch):
 
 
 def test_a_path_whose_increments_fail_says_which_setting_begins_with_larger_ones(monkeypatch):
+    """One push without end leads on, and says so; where that finds nothing either, the error does."""
     monkeypatch.setattr(loading, "increment", lambda *_: Tried(None, 1))
+    wall = structures.wall(lb.PointContact(0.65), length=1.2, courses=4)
+    said = "fail, however small; Settings(first=10)"
+    assert any(said in remark for remark in lb.load_path(wall).remarks)
+    monkeypatch.setattr(loaded, "endless", lambda *_: None)
     with pytest.raises(lb.NotConverged) as caught:
-        lb.load_path(structures.wall(lb.PointContact(0.65), length=1.2, courses=4))
-    assert any("fail, however small; Settings(first=10)" in note for note in caught.value.__notes__)
+        lb.load_path(wall)
+    assert any(said in note for note in caught.value.__notes__)
 
 
 def test_a_lintel_whose_end_the_polish_leaves_open_is_closed_by_pivots():
