@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
@@ -15,6 +16,7 @@ from limitblocks.geometry.cracks import clusters, edges_of, renumbered, sides_of
 from limitblocks.geometry.mend import WELD, closes
 from limitblocks.geometry.neighbours import bounds_of
 from limitblocks.geometry.polyhedron import Faces
+from limitblocks.geometry.surface import winding
 from limitblocks.io.solid import Solid
 
 #: Parts of faces over vertices, and which of them are closed.
@@ -209,11 +211,17 @@ def _with_cavities(points: Array, loops: Faces, groups: list[list[int]]) -> list
     whole = {int(k): list(groups[k]) for k in np.flatnonzero(volumes >= 0.0)}
     for k in np.flatnonzero(volumes < 0.0).tolist():
         around = (volumes > -volumes[k]) & (low < low[k]).all(axis=1) & (high > high[k]).all(axis=1)
-        if whole and around.any():
-            whole[int(np.where(around, volumes, np.inf).argmin())] += groups[k]
+        hosts = [j for j in np.flatnonzero(around).tolist() if winding(bodies[k][0], _fans(points, shells[j]))]
+        if hosts:
+            whole[min(hosts, key=volumes.__getitem__)] += groups[k]
         else:
             whole[k] = list(groups[k])
     return [whole[k] for k in sorted(whole)]
+
+
+def _fans(points: Array, shell: Faces) -> Array:
+    """Return triangles (t, 3, 3) from the first corner of each face; those outside it count negative."""
+    return points[[(loop[0], *pair) for loop in shell for pair in itertools.pairwise(loop[1:])]]
 
 
 def _flux(points: Array, shell: Faces) -> float:

@@ -55,6 +55,18 @@ def test_a_mirrored_node_keeps_its_cavity_and_needs_no_mending(tmp_path):
     assert found.notes == ()
 
 
+def test_a_stone_inside_out_between_the_arms_of_another_is_no_cavity_of_it(tmp_path):
+    """It is within the bounding box alone: it is turned, as it is anywhere else."""
+    arms = [(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)]
+    sides = [(k, (k + 1) % 8, (k + 1) % 8 + 8, k + 8) for k in range(8)]
+    stone = lb.Block("u", [(*p, z) for z in (0, 1) for p in arms], [range(7, -1, -1), range(8, 16), *sides])
+    between = lb.Block.box("b", (0.5, 0.5, 0.5), (1.5, 2.0, 0.5))
+    drawn = [(corners(stone), 0), (corners(between, inward=True), 0)]
+    found = lb.files.read_blocks(gltf(tmp_path / "a.gltf", drawn, {}))
+    assert [block.volume for block in found.blocks] == pytest.approx([7.0, 0.125])
+    assert found.notes[-1].endswith("all faces pointed inward and are turned")
+
+
 def test_each_solid_of_a_mesh_has_the_material_of_most_of_its_faces(tmp_path):
     other = lb.Block.box("b", (1.0, 1.0, 1.0), (5.0, 0.0, 0.5))
     face = slice(0, 2)
