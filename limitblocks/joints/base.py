@@ -150,10 +150,13 @@ def checked_friction(friction: float) -> float:
     return float(friction)
 
 
-def checked_stress(word: str, stress: float, positive: bool = False) -> None:
-    """Raise ModelError unless `stress`, Pa, is a finite number >= 0, or > 0 if it must be `positive`."""
+def checked_stress(word: str, stress: float, positive: bool = False, unlimited: bool = False) -> None:
+    """Raise ModelError unless `stress`, Pa, is a finite number >= 0, or > 0 if it must be `positive`.
+
+    `unlimited`: None stands for no limit, which the message says.
+    """
     if not (_is_number(stress) and np.isfinite(stress) and stress >= 0.0) or (positive and not stress):
-        least = "> 0; None stands for no limit" if positive else ">= 0"
+        least = ("> 0" if positive else ">= 0") + "; None stands for no limit" * unlimited
         raise ModelError(f"{word} is {stress!r} Pa, expected a finite stress {least}")
 
 

@@ -94,7 +94,7 @@ class ExactTorsion(Queries):
         checked_count("fineness", self.fineness, 1)
         checked_choice("side", self.side, ("inner", "outer"))
         if self.compressive_strength is not None:
-            checked_stress("compressive strength", self.compressive_strength, positive=True)
+            checked_stress("compressive strength", self.compressive_strength, positive=True, unlimited=True)
 
     @property
     def _from(self) -> str:

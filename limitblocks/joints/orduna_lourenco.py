@@ -119,7 +119,7 @@ class OrdunaLourenco(Queries):
     def __post_init__(self) -> None:
         checked_friction(self.friction)
         if self.compressive_strength is not None:
-            checked_stress("compressive strength", self.compressive_strength, positive=True)
+            checked_stress("compressive strength", self.compressive_strength, positive=True, unlimited=True)
         checked_choice("slip", self.slip, ("exact", "paper", "inner", "outer"))
         checked_count("sides", self.sides, 3)
         if self.slip in ("exact", "paper") and self.sides != 8:

@@ -251,7 +251,7 @@ def test_file_keeps_ties(tmp_path):
         (lambda: rod(8e3, prestress=9e3), "prestress is 9000 N, expected 0 to less than the 8000 N"),
         (lambda: rod(8e3, number_of=0), "number_of is 0"),
         (lambda: reinforced(facade(), unknown()), "'x' is not"),
-        (lambda: Tie(-1.0), "strength of a tie is -1.0 Pa"),
+        (lambda: Tie(-1.0), "strength of a tie is -1.0 Pa, expected a finite stress > 0$"),
     ],
 )  # fmt: skip
 def test_misuse(make, words):
