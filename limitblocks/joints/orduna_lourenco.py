@@ -71,7 +71,8 @@ class OrdunaLourenco(Queries):
     - Eqs (23) and (30) overestimate torsion under bending except when a hinge forms, by up to 31 % of the
       effective rectangle's strength or 0.23 T0;
     - the rectangle of Eqs (31)-(32) that stands for another quadrilateral has 0.63 to 1.27 times its torsion,
-      the most on slender ones that are nearly triangles;
+      the most on slender ones that are nearly triangles, with x1 along the longest side, as
+      :func:`limitblocks.find_interfaces` has it;
     - off rectangles, Eq. (30) as printed cuts the corners of the hinging polygon, where Eq. (36) is exact:
       the moments are divided by the largest |x1| + |x2| of a corner, which is l1 + l2 on a rectangle;
     - shear and bending reduce torsion independently of each other;
