@@ -95,7 +95,7 @@ MaterialsFile = Annotated[
     typer.Option(
         "--materials",
         metavar="TOML",
-        help="Table of unit weights and joints by layer or name, instead of --friction; see docs/files.md.",
+        help="Unit weights and joints by layer or name, instead of --friction; see docs/from-a-drawing.md.",
         show_default=False,
     ),
 ]

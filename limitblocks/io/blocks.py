@@ -41,11 +41,12 @@ def read_blocks(
         The suffix of its name says the format.
     units : str, optional
         Unit of length of the file, one of "m", "cm", "mm", "in", "ft"; left out, what the file says, and
-        metres where it says nothing.
+        metres where it says nothing, or mm or cm where it would be larger than 300 m: `guesses` says so.
     unit_weight : float or mapping of str to float, optional
         N/m3, of all blocks or by layer; blocks of other layers get none, as supports may.
     up : str, optional
-        Axis of the file that points up, "y" or "z"; left out, what the format says (glTF: Y), else Z.
+        Axis of the file that points up, "y" or "z"; left out, what the format says (glTF: Y), else Z,
+        or Y where the structure would lie on its side: `guesses` says so.
     twisted : {"refuse", "triangulate", "fit"}, optional
         What becomes of faces whose corners lie in no plane, within 1e-3 of the block's size: an error;
         triangles; or planes that fit the corners best, into which the vertices go. Left out: triangles where

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def read_materials(file: str | Path) -> Materials:
-    """Return the table of materials in a TOML file, as described in docs/files.md.
+    """Return the table of materials in a TOML file, as described in docs/from-a-drawing.md.
 
     Raises
     ------

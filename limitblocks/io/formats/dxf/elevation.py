@@ -50,7 +50,7 @@ def read_drawing(
         Layers to take outlines from; all that are visible if left out.
     units : str, optional
         Unit of length of the file, one of "m", "cm", "mm", "in", "ft"; left out, what the file says, and
-        metres where it says nothing.
+        metres where it says nothing, or mm or cm where it would be larger than 300 m: `guesses` says so.
     unit_weight : float or mapping of str to float, optional
         N/m3, of all blocks or by layer.
     skip_bad : bool
