@@ -46,7 +46,7 @@ class Model(Viewed):
     interfaces : sequence of Interface
         Contacts between blocks; those between two supports are left out.
     dead, live : Load
-        Constant loads Fc and variable loads Fv (Eq. 43); those on supports do nothing.
+        Constant loads Fc and variable loads Fv (Eq. 43); weights of supports count for nothing.
     name : str
         Title in reports.
     tolerances : Tolerances, optional
@@ -58,8 +58,8 @@ class Model(Viewed):
     ------
     ModelError
         With all faults at once: no or unknown support, no free block, two blocks of one name, an interface
-        of an unknown block, a block that no chain of interfaces ties to a support, a load on an unknown
-        block, no live load.
+        of an unknown block, a block that no chain of interfaces ties to a support, a load that names
+        an unknown block or a support, no live load.
     """
 
     blocks: Sequence[Block]

@@ -87,8 +87,10 @@ def nonassociated(
         analyses, each with the friction of the last, from the associated state or `start` on. Often the
         loop ends at another solution, and it may stall.
     means : sequence of Means, optional
-        Paths to follow in turn, until one ends at a solution; before those of a large barrier the increments
-        of :func:`limitblocks.load_path` are tried, if there is more than one.
+        Paths to follow in turn, until one ends at a solution. If there is more than one, the other ways are
+        tried, too: one half after the first, in space rounds of the fixed point, the outer loop at last, and
+        increments of :func:`limitblocks.load_path`, in a plane before paths of a large barrier, in space
+        after them.
     progress : callable, optional
         Called with each Iteration.
     confirm : bool
