@@ -129,7 +129,8 @@ def sweep(
 ) -> Sweep:
     """Return the load factor of `maker(value)` for each value of a parameter.
 
-    All models are made first, in this process; only our own errors of `maker` become errors of a row.
+    All models are made first, in this process. What `maker` cannot make becomes the error of its row: errors
+    of limitblocks, of values and of arithmetic; others are raised.
 
     Parameters
     ----------
