@@ -8,6 +8,7 @@ import pytest
 import limitblocks as lb
 from limitblocks import studies
 from limitblocks.analysis.stability import standing_margin
+from limitblocks.studies import threshold as searched
 
 GAMMA, H, PUSH = 20e3, 2.0, 4e3
 
@@ -143,3 +144,30 @@ def test_wrong_search_is_refused(low, high, more, said):
 def test_a_maker_that_gives_no_model_is_told():
     with pytest.raises(lb.ModelError, match="value = 1: model is a float, expected a Model"):
         lb.studies.minimum(lambda value: value, 1, 2)
+
+
+def least_of(monkeypatch, margin, **given):
+    """The least value from 0 to 1 that stands by `margin`, which remarks the value that it is of."""
+    tried, model = [], wall(1.0)
+    monkeypatch.setattr(
+        searched, "remarked_margin", lambda *_: (margin(tried[-1]), (f"remark of {tried[-1]:g}",))
+    )
+    return studies.minimum(lambda _: model, 0.0, 1.0, progress=tried.append, **given)
+
+
+def test_what_lacks_less_than_the_tolerance_of_residuals_stands(monkeypatch):
+    """From .3 on 5e-9 are missing, of 1e-8; what is remarked is of the safe end."""
+    found = least_of(monkeypatch, lambda value: -1.0 if value < 0.3 else -5e-9, tolerance=0.01)
+    assert found.falls < 0.3 <= found.stands
+    assert [row["stands"] for row in found.rows()] == [row["value"] >= 0.3 for row in found.rows()]
+    assert found.remarks == (f"remark of {found.stands:g}",)
+
+
+def test_no_least_value_where_more_falls_again(monkeypatch):
+    """It stands from .4 to .5 and from .65 on: .4 is no value from which on it does."""
+
+    def margin(value):
+        return 1.0 if 0.4 <= value < 0.5 or value >= 0.65 else -1.0
+
+    with pytest.raises(lb.errors.SolverFailure, match="standing and falling change more than once"):
+        least_of(monkeypatch, margin, tolerance=0.4)
