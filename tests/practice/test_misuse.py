@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 import limitblocks as lb
+from limitblocks.joints import Backfill
 from limitblocks.practice import (
     Deck,
     Element,
@@ -117,6 +118,8 @@ def test_verification_of_other_loads(facade, live, words):
          "candidate tie ground|wall has a prestress of 1000 N, expected none"),
         (lambda wall: least_ties(wall, [dowel(wall.interfaces[0], (0, 0, 0), diameter=1, capacity=1)], 1),
          "candidate dowel ground|wall is no tie or strip"),
+        (lambda wall: least_ties(wall, [Element(replace(wall.interfaces[0], joint=Backfill(1e3)))], 1),
+         "candidate fill ground|wall is no tie or strip"),
         (lambda wall: least_ties(wall, 5, 0.3), "candidates is 5, expected a sequence of Element"),
         (lambda wall: least_masses(wall, [5], 0.3), "places are [5], expected a block and a point each"),
         (lambda wall: least_masses(wall, ("wall", (0, 0, 2)), 0.3), "places are ('wall', (0, 0, 2)), exp"),
@@ -151,6 +154,7 @@ def test_verification_of_other_loads(facade, live, words):
         (lambda wall: worst_position("m.json", CAR, Deck(5.0, y=0.0)), "model is a str, expected a Model"),
         (lambda wall: Deck(1.0, y=NAN), "line y of the deck is nan"),
         (lambda wall: vehicle_load(wall, CAR, Deck(-5.0), 0.0), "the road at -5 m is below the structure"),
+        (lambda wall: vehicle_load(wall, CAR, Deck(4.99), 0.0), "the road at 4.99 m is below the structure"),
         (lambda wall: vehicle_load(wall, CAR, Deck(5.0), NAN), "position is nan"),
         (lambda wall: worst_position(wall, (1e3,), Deck(5.0)), "vehicle is a tuple, expected Vehicle"),
         (lambda wall: worst_position(wall, CAR, Deck(5.0), (1.0,)), "between, X of the first axle, is (1"),

@@ -81,6 +81,8 @@ def test_floor_spectrum():
     assert floor.acceleration(SITE, 0.35, 0.02) == pytest.approx(1.1 * 0.05**-0.5 * np.sqrt(10 / 7) * largest)
     still = Floor((FloorMode(period=0.4, participation=1.3, shape=0.0),))
     assert still.acceleration(SITE, 0.7) == pytest.approx(SITE.acceleration(0.7))
+    velocity = SITE.a_g * SITE.S * SITE.F0 * SITE.T_C  # of the ground, times eta / T
+    assert still.acceleration(SITE, 0.7, 0.02) == pytest.approx(np.sqrt(10 / 7) * velocity / 0.7)
     assert still.largest(SITE) == pytest.approx(SITE.a_g * SITE.S)
 
 

@@ -222,9 +222,12 @@ def test_a_mass_that_weighs_is_pushed_too(facade):
     direction = facade.live.terms[0][1].direction
     pushed = replace(still, live=lb.mass_proportional(direction, [floor]))
     blocks, mass = pushed.live.terms
-    partly = replace(still, live=Load((blocks, (0.3, mass[1]))))
+    partly = replace(still, live=Load((blocks, (0.99, mass[1]))))
     with pytest.raises(lb.ModelError, match=f"the mass added to {block.name} in the dead load, or a part"):
         verification(partly, lb.bounds(partly), SITE, q=2.0)
+    twice = replace(pushed, dead=lb.self_weight([floor, floor]))
+    with pytest.raises(lb.ModelError, match=f"the mass added to {block.name} in the dead load, or a part"):
+        verification(twice, lb.bounds(twice), SITE, q=2.0)
     alone = replace(still, live=Load((mass,)))
     with pytest.raises(lb.ModelError, match="the weights times 0; expected 1"):
         verification(alone, lb.bounds(alone), SITE, q=2.0)

@@ -2,12 +2,14 @@
 
 from dataclasses import replace
 
+import facades
 import numpy as np
 import pytest
 from facades import FC, SITE, G, H
 
 import limitblocks as lb
 from limitblocks.practice import Spectrum, verification
+from limitblocks.practice.capacity_result import zero_of
 from limitblocks.practice.displacement_check import _least_at
 
 
@@ -58,6 +60,7 @@ def test_where_a_curve_snaps_through_zero_is_no_part_of_it(curve):
     points = [replace(curve.points[0], displacement=d, load_factor=a) for d, a in way]
     snapped = (*points[:2], replace(points[2], snapped=True))
     assert _least_at(replace(curve, points=snapped), 0.6) == pytest.approx(0.7)
+    assert zero_of(snapped) == 1.0
     assert _least_at(replace(curve, points=tuple(points)), 0.6) == pytest.approx(0.05)
 
 
@@ -79,6 +82,13 @@ def test_a_zero_that_the_points_of_a_curve_do_not_have_is_refused(facade, answer
             verification(facade, answer, SITE, q=2.0, curve=replace(curve, zero=zero))
 
 
+def test_a_curve_of_another_model_is_refused(answer, curve):
+    """The same facade on a joint of more friction."""
+    other = facades.facade(lb.PointContact(0.7))
+    with pytest.raises(lb.ModelError, match="this CapacityCurve belongs to model "):
+        verification(other, lb.nonassociated(other), SITE, q=2.0, curve=curve)
+
+
 def test_a_curve_whose_joints_press_across_their_gaps_is_said_to(facade, answer, curve):
     gap = "ground|wall presses across a gap of 1 mm"
     first, second, *rest = curve.points
@@ -88,3 +98,5 @@ def test_a_curve_whose_joints_press_across_their_gaps_is_said_to(facade, answer,
     assert [said in one for one in found.remarks].count(True) == 1
     without = verification(facade, answer, SITE, q=2.0, curve=curve)
     assert not any("gaps" in one for one in without.remarks)
+    once = replace(curve, points=(first, replace(second, across=(gap,)), *rest))
+    assert once.proven_to == first.displacement

@@ -52,6 +52,13 @@ def test_the_search_finds_the_worst_position_between_the_first_ones():
     assert np.isinf(found.load_factors[np.argmax(found.positions)])
 
 
+def test_a_vehicle_longer_than_the_structure_is_looked_at_until_its_first_axle_leaves():
+    """P (x - 3) = W (3 - 2) under the first axle, which is the heavy one; its middle is at most .1 m off."""
+    found = worst_position(beam(), Vehicle((10e3, 1e3), (0.0, 100.0), contact=0.2), Deck(level=0.5))
+    assert found.position == pytest.approx(3.9, abs=1e-3)
+    assert found.bounds.upper == pytest.approx(40e3 / 10e3 / 0.9, rel=1e-4)
+
+
 @pytest.mark.parametrize("at", [3.85, 3.95, 4.0, 4.1])
 @pytest.mark.parametrize("depth", [0.0, 0.3])
 def test_the_part_of_an_axle_beyond_the_blocks_does_nothing(at, depth):
