@@ -80,7 +80,7 @@ def across(assembly: Assembly, stress_resultants: Array, kept: list[int]) -> dic
         own = assembly.contacts[k]
         gap, size = own.ways[:, 2], float(np.abs(own.interface.polygon).max())
         closed = gap <= 10.0 * CLOSED * assembly.size
-        if own.tied or closed.all() or not -Q[2] > least:
+        if closed.all() or not -Q[2] > least:
             continue
         centre = np.array([-Q[4] / Q[2], Q[3] / Q[2]])
         pressed = shapely.Point(centre)
