@@ -165,3 +165,12 @@ def test_joints_are_hashable_settings_that_a_file_can_hold(joint, tmp_path):
     again = lb.read(model.save(tmp_path / "model.json"))
     assert again.interfaces[0].joint == joint
     assert again.digest == model.digest
+
+
+def test_what_the_normal_force_uses_by_itself_counts_beside_a_small_shear():
+    """1 m2 of 1e5 Pa in compression and 1e4 Pa in tension; the shear of 1 N has thousands of times that."""
+    joint = lb.OrdunaLourenco(0.6, compressive_strength=1e5, cohesion=1e4, tensile_strength=1e4)
+    face = lb.joints.interface([(0, 0), (1, 0), (1, 1), (0, 1)], joint)
+    for N, share in ((-9e4, 0.9), (5e3, 0.5)):
+        for shear in (0.0, 1.0):
+            assert joint.utilisation(face, (shear, 0, N, 0, 0, 0)) == pytest.approx(share, rel=1e-9)

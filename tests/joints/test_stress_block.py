@@ -96,10 +96,11 @@ def test_moments_of_crushing_beside_the_stress_block(shape, share):
 
 def test_moments_beside_the_stress_block_of_both_strengths():
     """A rectangle about one axis: M = l (A ft - N) (1 - (A ft - N) / (A (fcef + ft)))."""
-    force = 5.0 + 2.0 * AREA
-    moment = L2 * force * (1 - force / (AREA * 1002.0))
-    found = _over(RECTANGLE, 1000.0, [0, 0, -5.0, moment / 2, 0, 0], 2.0)
-    assert found == pytest.approx(0.5, abs=5e-4)
+    for strength, tension in ((1000.0, 2.0), (200.0, 100.0)):
+        force = 5.0 + tension * AREA
+        moment = L2 * force * (1 - force / (AREA * (strength + tension)))
+        found = _over(RECTANGLE, strength, [0, 0, -5.0, moment / 2, 0, 0], tension)
+        assert found == pytest.approx(0.5, abs=5e-4)
     assert _over(RECTANGLE, 1000.0, [1.0, 0, -5.0, 0, 0, 1.0]) == 0.0
     assert _over(RECTANGLE, 5.0 / AREA, [0, 0, -5.0, 1.0, 0, 0]) == np.inf
 
