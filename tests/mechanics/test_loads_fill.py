@@ -26,6 +26,9 @@ def test_fill_over_an_arch_weighs_what_is_between_level_and_extrados():
     assert not load[:, :2].any()  # no earth pressure asked for
     each = GAMMA * DEPTH * np.diff(x) * (LEVEL - (z[1:] + z[:-1]) / 2)
     assert -load[:, 2] == pytest.approx(each, rel=1e-9)
+    names = [ARCH.free_blocks[k].name for k in (5, 5, 7)]  # a block named twice has its fill once
+    some = lb.loads.fill(GAMMA, LEVEL, blocks=names).on(ARCH.free_blocks)
+    assert -some[:, 2] == pytest.approx(np.where(np.isin(np.arange(11), (5, 7)), each, 0.0), rel=1e-9)
 
 
 def test_horizontal_earth_pressure_is_the_integral_over_height():

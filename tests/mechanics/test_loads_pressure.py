@@ -175,6 +175,7 @@ def test_pressure_that_grows_upwards_is_a_difference():
     [
         (lambda: lb.loads.pressure("wal", 1.0, facing=(1, 0, 0)), "'wal'"),
         (lambda: lb.loads.pressure("wedge", 1.0, facing=(1, 0, -0.5)), "no face towards"),
+        (lambda: lb.loads.pressure("wall", 1.0, facing=(1, 0.99, 0.98)), "closest is 54 degrees off"),
         (lambda: lb.loads.pressure("wall", 1.0, facing=(1, 1, 0)), "equally close"),
         (lambda: lb.loads.pressure("wall", 1.0, facing=(0, 0, 0)), "non-zero"),
         (lambda: lb.loads.pressure("wall", 1.0, at=(0.5, 0, 1.0)), "on no face"),
