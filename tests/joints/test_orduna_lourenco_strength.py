@@ -228,10 +228,10 @@ def test_cohesion_and_tension():
     assert sticky.strength(interface, (1, 0, 0, 0, 0, 0), COMPRESSION) == pytest.approx(c * AREA, rel=1e-12)
 
 
-@pytest.mark.parametrize("c", [0.0, 3e3])
-def test_tension_ends_at_cohesion_over_friction_in_bending_too(c):
+@pytest.mark.parametrize(("c", "tension"), [(0.0, 1e6), (3e3, 1e6), (3e3, 1.01 * 3e3 / MU)])
+def test_tension_ends_at_cohesion_over_friction_in_bending_too(c, tension):
     """Coulomb's law allows no tension beyond c / mu: a hinge forms at M1 = L2 (A c / mu - N)."""
-    joint = lb.OrdunaLourenco(MU, cohesion=c, tensile_strength=1e6)
+    joint = lb.OrdunaLourenco(MU, cohesion=c, tensile_strength=tension)
     interface = lb.joints.interface(RECTANGLE, None)
     moment = joint.strength(interface, (0, 0, 0, 1, 0, 0), COMPRESSION)
     assert moment == pytest.approx(L2 * (AREA * c / MU - N), rel=1e-9)
