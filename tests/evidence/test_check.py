@@ -100,6 +100,9 @@ def test_an_associated_mechanism_is_no_zero_dilatancy_solution(model, claim):
     lifting[:, 2] = MU * lifting[:, 0]  # rises as it slides, as the associated flow wants
     associated = replace(claim, displacement_rates=lifting)
     assert failing(model, associated) == {"flow"}
+    judged = check_mcp(model, associated).residuals.to_dict()
+    both = replace(associated, upper=MU)  # an upper bound is of associated flow alone
+    assert check_mcp(model, both).residuals.to_dict() == judged
     assert check_mcp(model, replace(associated, dilatancy=MU)).passed
 
 

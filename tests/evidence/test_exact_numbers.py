@@ -97,7 +97,7 @@ def test_room_that_is_less_than_the_need_by_a_rounding_error_proves_nothing():
     assert not Reach(np.array([1.0, 1e-18]), np.array([1.0, 0.0]), np.ones(2)).proven
 
 
-@pytest.mark.parametrize("across", ["nothing", "dead", "live"])
+@pytest.mark.parametrize("across", ["nothing", "dead", "live", "nearly live"])
 def test_the_upper_bound_is_at_least_the_exact_ratio(problem, across):
     """(g.y - dead.u) / (live.u) and what a change of y can add to it, also where either all but cancels."""
     p = problem
@@ -105,8 +105,9 @@ def test_the_upper_bound_is_at_least_the_exact_ratio(problem, across):
         change = np.abs(RANDOM.normal(size=len(p.g))) * RANDOM.choice([0.0, 1e-12])
         u, y = state.u, state.y * (across != "dead")
         if across != "nothing":
-            load = getattr(p, across)
-            u = u - (load @ u) / (load @ load) * load
+            load = getattr(p, across.split()[-1])
+            left = 1e-12 * np.sqrt((load @ load) * (u @ u)) * ("nearly" in across)
+            u = u - (load @ u - left) / (load @ load) * load
         else:
             u = u if p.live @ u > 0.0 else -u
         found = _upper(p, State(state.load_factor, state.x, u, y), Reach(change, change, change), 1.0)

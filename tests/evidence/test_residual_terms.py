@@ -46,6 +46,8 @@ def test_a_lower_bound_above_the_upper_is_worth_the_difference(problem):
     nothing = State(a, np.zeros(p.C.shape[0]), np.zeros(p.C.shape[1]), np.zeros(len(p.g)))
     assert worth_of_violations(p, nothing) == pytest.approx(a)
     assert (p.cones.margin(p.g) >= 0.0).all()
+    inward = replace(nothing, y=-0.5 * p.cones.identity)  # multipliers outside K, by as much of the slack g
+    assert worth_of_violations(p, inward) == pytest.approx(a + 0.5 * p.g[p.cones.heads].sum())
     u = p.live / (p.live @ p.live) + 0.01 * p.dead
     u = u / (p.live @ u)
     moving = replace(nothing, u=u)
