@@ -271,6 +271,8 @@ def test_few_blocks_at_low_thrust_are_named(of_pushed):
     assert not any(answer.local for answer in of_pushed.answers)
     local = replace(of_pushed.answers[0], share=0.02, thrust=0.1)
     assert local.mechanism.startswith("few blocks at low thrust, behind, front")
+    assert not replace(local, share=0.5).local
+    assert not replace(local, thrust=0.9).local
 
 
 def test_a_report_tells_the_three_ranges_apart(pushed, of_pushed):

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
+from scipy import sparse
 
 from limitblocks.analysis.load_factor_range.faces import extremes, ray
 from limitblocks.analysis.nonassociated.finished import finished
@@ -17,11 +18,12 @@ from limitblocks.evidence.range_answer import Origin, RangeAnswer
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
-from limitblocks.problem import Flow, State
+from limitblocks.problem import Flow, LimitProblem, State
+from limitblocks.problem.places import places
 
 DISTINCT = 1e-4  # of the scale of load factors: nearer ones are one answer
 NOISE = 1e-9  # of the multipliers: mechanisms that hardly slip have no thrust to compare
-MOVING = 1e-3  # of the largest rate: a slower block stands still
+MOVING = 1e-3  # of the largest rate: a slower block stands still; of the multipliers of a point: no slip
 
 
 class Certified(NamedTuple):
@@ -136,8 +138,9 @@ def of_result(
     free = model.free_blocks
     moving = tuple(block.name for block in free if block.name in moves)
     p = flow.problem
-    y = result.flow_multipliers / p.multiplier_units
-    slips = p.F - flow.matrix(permanent)  # what slipping takes up per multiplier, (F - G) x
+    G = flow.matrix(permanent)
+    slips = sparse.csr_array(p.F - G)  # what slipping takes up per multiplier, (F - G) x
+    y = _slipping(p, slips, G, result.flow_multipliers / p.multiplier_units)
     before, now = (float(y @ (slips @ x)) for x in (permanent, result.generalised_stresses / p.stress_units))
     return RangeAnswer(
         solution=result,
@@ -147,6 +150,17 @@ def of_result(
         share=float(sum(b.weight for b in free if b.name in moves) / sum(b.weight for b in free)),
         thrust=max(0.0, now) / before if before > NOISE * abs(y).sum() else 1.0,
     )
+
+
+def _slipping(p: LimitProblem, slips: sparse.csr_array, G: sparse.csr_array, y: Array) -> Array:
+    """Multipliers of what slips: none at open points, where those of friction may be any that cancel."""
+    members, stresses = places(p)
+    rubs = np.bincount(p.cones.member, np.diff(slips.indptr), p.cones.degree) > 0.0
+    own = np.where(rubs[p.cones.member], y, 0.0)
+    strains, largest = (np.zeros(max(members.max(), stresses.max()) + 1) for _ in range(2))
+    np.maximum.at(strains, stresses, np.abs(G.T @ own))
+    np.maximum.at(largest, members, p.cones.norm(own))
+    return np.where((strains > MOVING * largest)[members][p.cones.member], own, 0.0)
 
 
 def remarks(flow: Flow, first: RangeAnswer | None, answers: list[RangeAnswer]) -> tuple[str, ...]:

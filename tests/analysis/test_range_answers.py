@@ -1,0 +1,30 @@
+"""What is kept of the states that a search for a range meets, and what is said of them."""
+
+import pytest
+
+import limitblocks as lb
+from limitblocks.analysis.load_factor_range.answers import Collected
+from limitblocks.analysis.nonassociated.start import state_of
+from limitblocks.evidence.range_answer import Origin
+from limitblocks.problem import Flow
+
+
+def test_a_load_factor_that_was_searched_and_then_reached_is_reached():
+    rocking = lb.structures.block(lb.PointContact(0.6), width=0.4, height=1.0)  # at b / h
+    flow = Flow(rocking.problem)
+    state = state_of(rocking, rocking.problem, lb.nonassociated(rocking))
+    collected = Collected(flow, (0.0, 2.0 * state.load_factor), state.load_factor, False)
+    for origin in (Origin.SEARCHED, Origin.REACHED, Origin.REACHED):
+        assert collected.add(state, "", origin, keep=True)
+    assert [one.origin for one in collected.found] == [Origin.SEARCHED, Origin.REACHED]
+
+
+@pytest.mark.parametrize(
+    "joint", [lb.PointContact(0.6), lb.PointContact(0.6, cone="outer", sides=4), lb.OrdunaLourenco(0.6)]
+)
+def test_where_nothing_slips_the_thrust_is_that_of_the_permanent_loads(joint):
+    """It rocks; multipliers of friction at the points that open are none of a slip."""
+    model = lb.structures.block(joint, width=0.4, height=1.0)
+    (answer,) = lb.load_factor_range(model, paths=1, mechanisms=0).answers
+    assert answer.load_factor == pytest.approx(0.4, rel=1e-6)
+    assert (answer.share, answer.thrust, answer.local) == (1.0, 1.0, False)
