@@ -227,6 +227,8 @@ def test_false_mechanism_is_refused(part):
     assert Residuals(mechanism_residuals(fall.flow, fall.loads, fall.state)).worst.value < 1e-8
     false = replace(fall.state, **{part: 1.001 * getattr(fall.state, part)})
     assert Residuals(mechanism_residuals(fall.flow, fall.loads, false))["mechanism flow"] > 1e-5
+    sticky = on_a_slope(lb.OrdunaLourenco(0.5, cohesion=1e6), 0.6).problem  # takes up more than the loads do
+    assert Residuals(mechanism_residuals(Flow(sticky, ASSOCIATED), sticky.dead, false)).worst.value == np.inf
     upwards = replace(fall.state, u=-fall.state.u, y=-fall.state.y)  # the loads do negative work
     assert Residuals(mechanism_residuals(fall.flow, fall.loads, upwards)).worst.value == np.inf
 
