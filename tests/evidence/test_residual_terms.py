@@ -102,3 +102,12 @@ def test_an_interface_is_pressed_by_what_is_tied_to_it_and_not_by_a_stone_beside
     at_rest = State(0.0, *(np.zeros(size) for size in (problem.C.shape[0], 12, len(problem.g))))
     pressed = Measure(problem, at_rest).pressed * problem.units.interface_force
     assert pressed == pytest.approx(weights)
+
+
+def test_a_drift_counts_as_a_thousand_times_the_rate_of_the_live_load_at_most():
+    """One block without stresses: its weight is all that acts on it, through its largest rate."""
+    p = lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0).problem
+    none, weight = np.zeros(p.C.shape[0]), np.abs(p.dead).max()
+    for rate, counted in ((2.0, 2.0), (1e3, 1e3), (1e9, 1e3)):
+        state = State(0.0, none, np.full(p.C.shape[1], rate), np.zeros(len(p.g)))
+        assert Measure(p, state).everything == pytest.approx(counted * weight)

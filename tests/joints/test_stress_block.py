@@ -105,6 +105,16 @@ def test_moments_beside_the_stress_block_of_both_strengths():
     assert _over(RECTANGLE, 5.0 / AREA, [0, 0, -5.0, 1.0, 0, 0]) == np.inf
 
 
+def test_tension_counts_in_what_is_said_of_crushing():
+    """1 m2 about one axis, N' = A ft - N = 150 kN of A (fcef + ft) = 300: M = N' / 2 (1 - 1 / 2)."""
+    joint = lb.OrdunaLourenco(0.6, compressive_strength=2e5, cohesion=1e5, tensile_strength=1e5)
+    model = lb.structures.block(joint, width=1.0, height=1.0)
+    moment = 150e3 / 2 / 2
+    assert crushing.beyond_stress_block(model, np.array([[0, 0, -50e3, 0.0, moment, 0]])) == ()
+    (said,) = crushing.beyond_stress_block(model, np.array([[0, 0, -50e3, 0.0, 1.5 * moment, 0]]))
+    assert "carries 1.50 times the moment" in said
+
+
 @pytest.mark.parametrize("joint", [lb.OrdunaLourenco, lb.joints.ExactTorsion])
 def test_results_say_how_far_crushing_is_beyond_the_stress_block(joint, tmp_path):
     """Towards a corner of a triangle 1 + sqrt(n); about an axis of a rectangle nothing."""
