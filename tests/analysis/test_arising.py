@@ -1,9 +1,12 @@
 """Stresses that arise under the dead loads: the path to them, and where none is needed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import limitblocks as lb
+from limitblocks.analysis import stability as answers
 from limitblocks.analysis import unstressed
 from limitblocks.analysis.in_si import resultants_of
 from limitblocks.analysis.nonassociated import permanent
@@ -117,3 +120,17 @@ def test_arches_whose_path_from_a_large_barrier_finds_no_start_stand_by_themselv
     assert found.kind is lb.results.Standing.STANDS
     assert found.residuals.worst.value <= 1e-8
     assert lb.nonassociated(arch).load_factor > 0.0
+
+
+def test_stresses_that_nearly_arise_do_not(monkeypatch):
+    """Displacements 1e-4 too large: of a stone that stands it is then not known whether it does."""
+    model = lb.structures.block(lb.OrdunaLourenco(0.6), width=1.0, height=1.0)
+    own = answers.may_arise
+
+    def off(flow, weights):
+        return (replace(one, u=1.0001 * one.u) for one in own(flow, weights))
+
+    assert lb.stability(model).stands
+    monkeypatch.setattr(answers, "may_arise", off)
+    with pytest.raises(lb.errors.SolverFailure, match="whether they arise by themselves is undecided"):
+        lb.stability(model)
