@@ -46,6 +46,8 @@ def falling(flow: Flow, loads: Array) -> Fall | None:
 
     Those of the problem, and with every block measured by its own load.
     """
+    if not loads.any():
+        return None
     problem = flow.problem
     own = np.abs(loads).reshape(-1, 6).max(axis=1)
     light = problem.measured(np.where(own > 0.0, own, own.max()) * problem.units.block_force)

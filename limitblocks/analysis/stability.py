@@ -11,6 +11,7 @@ from scipy import sparse
 
 from limitblocks.analysis.falling import Fall, falling
 from limitblocks.analysis.forms import Stresses
+from limitblocks.analysis.idle import refuse_idle
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.one_thread import one_thread
@@ -62,7 +63,7 @@ def stability(model: Model) -> Stability:
         fall = falling(Flow(problem, ASSOCIATED), problem.dead)
         assert fall  # it was just found
         return _answer(model, Standing.FALLS, standing_margin(model), fall=fall)
-    margin = min(MOST, _margin(problem, x))
+    margin = min(MOST, max(0.0, _margin(problem, x)))  # it is, to rounding
     flow, weights = Flow(problem), joint_compliance(problem)
     for own in may_arise(flow, weights):
         entries = arising_residuals(flow, weights, own)
@@ -74,6 +75,7 @@ def stability(model: Model) -> Stability:
 
 def _slides_through(problem: LimitProblem, weights: Array) -> Fall:
     """Mechanism of the blocks that friction does not hold where nobody wedges them; SolverFailure if none."""
+    refuse_idle(problem)
     moving = not_held(problem, weights)
     if moving is None or not moving.any():
         raise SolverFailure(
@@ -177,6 +179,7 @@ def _dead_load_state(problem: LimitProblem) -> Array:
         if not tried and (fallen := falls(problem, problem.dead)):
             raise NoEquilibrium(fallen, problem.left_out)
         tried.append(worst)
+    refuse_idle(problem)
     raise SolverFailure(f"whether the dead loads stand is undecided: {nearest(tried, 'state')}")
 
 

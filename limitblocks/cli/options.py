@@ -78,7 +78,9 @@ Paths = Annotated[int, typer.Option(help="Load paths and other ways to a solutio
 Mechanisms = Annotated[int, typer.Option(help="Mechanisms drawn at random.", min=0)]
 Seed = Annotated[int, typer.Option(help="Of all that is random.", min=0)]
 Seconds = Annotated[float, typer.Option("--time-limit", help="Seconds; of each exact program, too.", min=0.0)]
-Exact = Annotated[bool, typer.Option("--exact", help="Also the least and the greatest of all solutions.")]
+Exact = Annotated[
+    bool, typer.Option("--exact", help="Also the least and greatest of all solutions from zero up.")
+]
 BlocksFile = Annotated[Path, typer.Argument(metavar="FILE", help="File of blocks.", show_default=False)]
 Supports = Annotated[
     list[str],

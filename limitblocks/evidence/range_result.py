@@ -41,7 +41,7 @@ class Wedging:
 
 @dataclass(frozen=True, eq=False)
 class Extreme:
-    """The least or the greatest load factor of all solutions, by a mixed-integer program.
+    """The least or the greatest load factor from zero up of all solutions, by a mixed-integer program.
 
     Attributes
     ----------
@@ -170,7 +170,7 @@ class LoadFactorRange(Result):
 
     def __str__(self) -> str:
         start = f"{self.load_path.load_factor:.6g}" if self.load_path else "none"
-        exact = f"; of all solutions {self.least} to {self.greatest}" if self.least else ""
+        exact = f"; of all solutions from zero up {self.least} to {self.greatest}" if self.least else ""
         stopped = "" if self.complete else "; stopped early, by the time limit or by hand"
         return self._line(
             f"load factor {start} by the load path; {_span(self.reached)} reached from permanent-load "

@@ -211,7 +211,9 @@ def _with_cavities(points: Array, loops: Faces, groups: list[list[int]]) -> list
     whole = {int(k): list(groups[k]) for k in np.flatnonzero(volumes >= 0.0)}
     for k in np.flatnonzero(volumes < 0.0).tolist():
         around = (volumes > -volumes[k]) & (low < low[k]).all(axis=1) & (high > high[k]).all(axis=1)
-        hosts = [j for j in np.flatnonzero(around).tolist() if winding(bodies[k][0], _fans(points, shells[j]))]
+        hosts = [
+            j for j in np.flatnonzero(around).tolist() if winding(bodies[k][0], _fans(points, shells[j]))
+        ]
         if hosts:
             whole[min(hosts, key=volumes.__getitem__)] += groups[k]
         else:

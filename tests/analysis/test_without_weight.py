@@ -49,3 +49,29 @@ def test_dead_loads_near_the_least_number_end_in_an_error_of_the_library():
     faint = replace(model, dead=1e-300 * lb.self_weight())
     with pytest.raises(lb.errors.SolveError):
         lb.nonassociated(faint)
+
+
+def stones(height):
+    """A stone with `height` others of no weight on it, pushed along x: it slides at its friction, 0.6."""
+    box, z = lb.Block.box, 0.75
+    light = [box(f"light {k}", (0.8, 0.8, 0.5), (0.1, 0, z + 0.5 * k), 0.0) for k in range(height)]
+    return [box("ground", (4, 4, 0.3), (0, 0, -0.15)), box("stone", (1, 1, 0.5), (0, 0, 0.25), 2e4), *light]
+
+
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6), lb.PointContact(0.6), GLUED])
+@pytest.mark.parametrize("analysis", [lb.nonassociated, lb.load_path, lb.stability, lb.load_factor_range])
+def test_blocks_that_carry_nothing_are_named(analysis, joint):
+    """Nothing measures them: the elastic step failed, and whether they stand was undecided."""
+    with pytest.raises(lb.errors.ModelError, match=r"nothing acts on light 0, light 1, and one joint"):
+        analysis(model_of(stones(2), ["ground"], joint))
+
+
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6), lb.PointContact(0.6)])
+def test_bounds_that_solve_do_not_mind_blocks_that_carry_nothing(joint):
+    assert lb.bounds(model_of(stones(2), ["ground"], joint)).load_factor == pytest.approx(0.6, rel=1e-6)
+
+
+def test_blocks_that_carry_nothing_are_named_where_bounds_do_not_solve():
+    crushing = lb.OrdunaLourenco(0.6, compressive_strength=1e6)
+    with pytest.raises(lb.errors.ModelError, match="nothing acts on light 0, and"):
+        lb.bounds(model_of(stones(1), ["ground"], crushing))

@@ -70,8 +70,8 @@ def load_factor_range(
     time_limit : float
         Seconds of wall time: half of it for paths, the rest for mechanisms; that of each exact program, too.
     exact : bool
-        Also the least and the greatest of all solutions, by mixed-integer programs; for models of a few
-        blocks with joints of planes.
+        Also the least and the greatest of all solutions with a load factor of at least zero, by mixed-integer
+        programs; for models of a few blocks with joints of planes.
     progress : callable, optional
         Called with an Iteration for every point of a path, and for every way and mechanism when it has ended.
 

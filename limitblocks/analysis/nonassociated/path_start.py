@@ -100,7 +100,8 @@ def _elastic(layout: Layout, stiffness: Array) -> Factors:
             continue
         except np.linalg.LinAlgError:
             raise SolveError(
-                "the loads have sizes that numbers of 64 bits do not hold side by side: no elastic step"
+                "the loads have sizes that numbers of 64 bits do not hold side by side, or nothing acts on "
+                "some blocks: no elastic step"
             ) from None
     raise SolveError("the live load moves blocks that no joint holds: every solution has the load factor 0")
 
