@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from limitblocks.errors import ModelError, few
+from limitblocks.errors import few
 from limitblocks.problem import LimitProblem
 
 
-def refuse_idle(problem: LimitProblem) -> None:
-    """Raise ModelError where blocks without loads lean on others by one joint: it carries nothing.
+def idle_words(problem: LimitProblem) -> tuple[str, ...]:
+    """Return what helps where an analysis failed on blocks that carry nothing; empty without such blocks.
 
-    Without strength of its own that joint has no stresses strictly within yield, and rounding is all there
-    is to measure such blocks by.
+    Equilibrium leaves their joints no stresses: without strength of their own none is strictly within yield.
     """
     names = idle(problem)
-    if names:
-        raise ModelError(
-            f"nothing acts on {few(names)}, and one joint is all that ties each, or what leans on it, to the "
-            "rest: give a unit weight, or leave out such blocks, which changes no load factor"
-        )
+    if not names:
+        return ()
+    return (
+        f"nothing acts on {few(names)}, and one joint is all that ties each, or what leans on it, to the "
+        "rest: give a unit weight, or leave out such blocks, which changes no load factor",
+    )
 
 
 def idle(problem: LimitProblem) -> tuple[str, ...]:

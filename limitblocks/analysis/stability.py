@@ -11,7 +11,7 @@ from scipy import sparse
 
 from limitblocks.analysis.falling import Fall, falling
 from limitblocks.analysis.forms import Stresses
-from limitblocks.analysis.idle import refuse_idle
+from limitblocks.analysis.idle import idle_words
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.one_thread import one_thread
@@ -75,7 +75,6 @@ def stability(model: Model) -> Stability:
 
 def _slides_through(problem: LimitProblem, weights: Array) -> Fall:
     """Mechanism of the blocks that friction does not hold where nobody wedges them; SolverFailure if none."""
-    refuse_idle(problem)
     moving = not_held(problem, weights)
     if moving is None or not moving.any():
         raise SolverFailure(
@@ -86,7 +85,10 @@ def _slides_through(problem: LimitProblem, weights: Array) -> Fall:
     alone = replace(problem, C=sparse.csr_array(problem.C @ free), dead=np.asarray(free @ problem.dead))
     fall = falling(Flow(alone), alone.dead)
     if fall is None:
-        raise SolverFailure("blocks that nobody wedges move, but no mechanism of them was found")
+        error = SolverFailure("blocks that nobody wedges move, but no mechanism of them was found")
+        for note in idle_words(problem):
+            error.add_note(note)
+        raise error
     return fall
 
 
@@ -179,7 +181,6 @@ def _dead_load_state(problem: LimitProblem) -> Array:
         if not tried and (fallen := falls(problem, problem.dead)):
             raise NoEquilibrium(fallen, problem.left_out)
         tried.append(worst)
-    refuse_idle(problem)
     raise SolverFailure(f"whether the dead loads stand is undecided: {nearest(tried, 'state')}")
 
 

@@ -20,6 +20,8 @@ from limitblocks.problem import LimitProblem, State
 # Of the power of all forces on the mechanism: smaller load factors are known to it times the tolerance.
 SMALL_POWER = 1e-7
 FASTEST = 1e3  # rate of a block over that at which the live loads do their work: more counts as this
+# Of the loads of all that it is tied to: within 1e-8 of less, on a block without loads, is rounding of these.
+FAINT = np.finfo(float).eps / 1e-8
 ROUNDING = 1e-9  # of that power over the tolerance: load factors smaller than rounding errors
 
 
@@ -48,20 +50,29 @@ class Measure:
         return np.asarray(p.C @ z.u + p.F.T @ z.y)
 
     @cached_property
+    def loads(self) -> Array:
+        """Sizes of the loads, shape (6 n,)."""
+        p = self.problem
+        return np.asarray(np.abs(p.dead) + np.abs(self.state.load_factor * p.live))
+
+    @cached_property
+    def together(self) -> Array:
+        """Loads of all that each block is tied to, in its unit of force, shape (n,)."""
+        p = self.problem
+        own = self.loads.reshape(-1, 6).sum(axis=1) * p.units.block_force
+        return np.asarray(np.bincount(p.parts, weights=own)[p.parts] / p.units.block_force)
+
+    @cached_property
     def block(self) -> Array:
-        """What acts on each block, in its unit of force, shape (n,)."""
-        p, z = self.problem, self.state
-        acting = p.acting @ np.abs(z.x) + np.abs(p.dead) + np.abs(z.load_factor * p.live)
-        return np.asarray(acting.reshape(-1, 6).max(axis=1))
+        """What acts on each block, in its unit, (n,); at least FAINT of all loads where none does."""
+        acting = (self.problem.acting @ np.abs(self.state.x) + self.loads).reshape(-1, 6).max(axis=1)
+        loaded = self.loads.reshape(-1, 6).any(axis=1)
+        return np.asarray(np.where(loaded, acting, np.maximum(acting, FAINT * self.together)))
 
     @cached_property
     def loaded(self) -> Array:
         """What acts on each block, at most the loads of all it is tied to; its unit without any, (n,)."""
-        p = self.problem
-        loads = np.abs(p.dead) + np.abs(self.state.load_factor * p.live)
-        own = loads.reshape(-1, 6).sum(axis=1) * p.units.block_force
-        together = np.bincount(p.parts, weights=own)[p.parts] / p.units.block_force
-        return np.where(together == 0.0, 1.0, np.minimum(self.block, together))
+        return np.where(self.together == 0.0, 1.0, np.minimum(self.block, self.together))
 
     @cached_property
     def interface(self) -> Array:

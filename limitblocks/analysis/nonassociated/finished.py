@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from limitblocks.analysis.idle import idle_words
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.determinate import state_without_solution, yielding
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
@@ -193,6 +194,7 @@ def _refused(model: Model, flow: Flow, result: Nonassociated, known: str) -> Not
     if not interrupted:
         for note in (
             *(known,) * bool(known),
+            *idle_words(model.problem),
             *uncarried_words(uncarried(model, model.tolerances)),
             ASK_FIRST,
         ):

@@ -8,7 +8,6 @@ import numpy as np
 import numpy.typing as npt
 
 from limitblocks.analysis.bounds import bounds
-from limitblocks.analysis.idle import refuse_idle
 from limitblocks.analysis.interior import carried
 from limitblocks.analysis.nonassociated.permanent import permanent_state
 from limitblocks.analysis.nonassociated.without_shear import load_factor_without_shear
@@ -85,7 +84,6 @@ def flow_of(model: Model, dilatancy: float, turning: Turning | str) -> tuple[Flo
     """Return the flow rule of a model in its own units, and what encloses every solution."""
     slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
     _refuse_no_measure(model.problem)
-    refuse_idle(model.problem)
     enclosing = bracket(model)
     return Flow(own_units(model, enclosing), slope, about), enclosing
 
