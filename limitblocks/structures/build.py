@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from limitblocks.arrays import real
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, near
 from limitblocks.geometry import Block, find_interfaces
 from limitblocks.joints import Joint
 from limitblocks.mechanics import Load
@@ -34,7 +34,7 @@ _Record = TypeVar("_Record")
 
 
 def plain_numbers(make: Callable[_P, Model]) -> Callable[_P, Model]:
-    """Give the maker of a structure plain floats and ints, or raise ModelError naming what is none.
+    """Give the maker of a structure its arguments, numbers as plain floats and ints, or raise ModelError.
 
     Rounded to single precision, the same number would leave gaps between the blocks.
     """
@@ -44,7 +44,7 @@ def plain_numbers(make: Callable[_P, Model]) -> Callable[_P, Model]:
 
     @wraps(make)
     def made(*args: _P.args, **kwargs: _P.kwargs) -> Model:
-        given = signature.bind(*args, **kwargs)
+        given = _bound(make.__name__, signature, *args, **kwargs)
         asked = {
             name: value
             for name, value in given.arguments.items()
@@ -59,6 +59,19 @@ def plain_numbers(make: Callable[_P, Model]) -> Callable[_P, Model]:
         return make(*given.args, **given.kwargs)
 
     return made
+
+
+def _bound(name: str, signature: inspect.Signature, /, *args: Any, **kwargs: Any) -> inspect.BoundArguments:
+    """Return arguments by their names, or raise ModelError naming those that the maker does not have."""
+    try:
+        return signature.bind(*args, **kwargs)
+    except TypeError as error:
+        own, rest = signature.parameters, [*signature.parameters][len(args) :]
+        refuse(f"{name} has no argument {key!r}{near(key, own.keys() - kwargs)}"
+               for key in kwargs if key not in own)  # fmt: skip
+        missing = (key for key in rest if own[key].default is own[key].empty and key not in kwargs)
+        refuse(f"{name} needs {key!r}" for key in missing)
+        raise ModelError(f"{name}: {error}") from None
 
 
 def _sound(kind: str, value: Any) -> bool:

@@ -128,6 +128,23 @@ def test_measures_without_a_structure_are_refused(maker, given, said):
         made(maker, **given)
 
 
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"thicknes": 0.4}, "arch has no argument 'thicknes'; did you mean 'thickness'?"),
+        ({"colour": "red", "name": 1.0}, "arch has no argument 'colour'; arch has no argument 'name'"),
+        ({"thickness": 0.4}, "arch needs 'voussoirs'"),
+        ({}, "arch needs 'thickness'; arch needs 'voussoirs'"),
+    ],
+)
+def test_arguments_of_no_structure_and_missing_ones_are_refused_by_name(given, said):
+    with pytest.raises(lb.ModelError) as caught:
+        structures.arch(JOINT, radius=2.0, **given)
+    assert str(caught.value) == said
+    with pytest.raises(lb.ModelError, match="arch: too many positional arguments"):
+        structures.arch(JOINT, 2.0, thickness=0.4, voussoirs=9)
+
+
 def polygon(corners):
     """Area and abscissa of the centroid of a polygon (n, 2)."""
     x, z = np.transpose(corners)
