@@ -33,6 +33,9 @@ LOADS = {
     "'a'": loads.pressure("a", 5e3, facing=(0, 1, 0), unit_weight=1e4, level=2.0),
     "fill of 18 kN/m³ up to Z = 3 m on all blocks, coefficient of horizontal earth pressure 0.3 on faces "
     "that slope, none on upright ones": loads.fill(18e3, 3.0, earth_pressure=0.3),
+    "fill of 18 kN/m³ up to Z = 3 m on block 'a', beyond (0, 1) m in plan along -X": loads.fill(
+        18e3, 3.0, blocks="a", beyond=(0, 1), towards=(-2, 0, 0)
+    ),
     "a force (0, 0, -10) kN on top of the structure at (1, 2) m in plan": loads.top_force(
         (0, 0, -1e4), (1, 2)
     ),

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from limitblocks.analysis.magnitudes_of_fills import of_fills
 from limitblocks.analysis.magnitudes_of_ties import of_ties
 from limitblocks.arrays import Array
 from limitblocks.geometry import Block, Interface, Tolerances
@@ -14,9 +15,10 @@ from limitblocks.geometry.accuracy import block_length
 from limitblocks.geometry.distance import distance
 from limitblocks.geometry.polygon import cross, following
 from limitblocks.joints import OrdunaLourenco
+from limitblocks.mechanics.loads.fills import Fill
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, PointForce
 from limitblocks.mechanics.loads.load import Load, some
-from limitblocks.mechanics.loads.surfaces import Fill, Pressure
+from limitblocks.mechanics.loads.surfaces import Pressure
 from limitblocks.model import Model
 from limitblocks.shown import coordinates, many
 
@@ -62,6 +64,7 @@ def questions(model: Model) -> list[str]:
     return [
         *asked,
         *_of_forces(model, size),
+        *of_fills(model),
         *of_ties(model),
         *_of_axes(model.interfaces),
         *of_size(size),

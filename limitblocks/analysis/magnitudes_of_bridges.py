@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from limitblocks.mechanics.loads.surfaces import Fill
+from limitblocks.mechanics.loads.fills import Fill
 from limitblocks.model import Model
 from limitblocks.shown import coordinate
 

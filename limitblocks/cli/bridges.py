@@ -113,7 +113,7 @@ def backfill(
         from limitblocks.analysis.magnitudes_of_bridges import of_level, of_passive
         from limitblocks.io import read
         from limitblocks.loads import fill
-        from limitblocks.mechanics.loads.surfaces import Fill
+        from limitblocks.mechanics.loads.fills import Fill
         from limitblocks.practice import passive_fill, reinforced
         from limitblocks.shown import many
 

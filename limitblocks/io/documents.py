@@ -15,6 +15,7 @@ from limitblocks.io.units import Force, Length
 _BOUNDED: dict[Any, Any] = {
     float: Number,
     tuple[float, float]: Place,
+    tuple[float, float] | None: Place | None,
     tuple[float, float, float]: Vector,
     tuple[float, float, float] | None: Vector | None,
     tuple[str, ...]: Annotated[tuple[str, ...], Field(fail_fast=True)],

@@ -38,6 +38,7 @@ DIMENSIONS: dict[str, tuple[int, int]] = {
             "centroid",
             "polygon",
             "level",
+            "beyond",
             "start",
             "end",
             "length",
@@ -53,7 +54,7 @@ DIMENSIONS: dict[str, tuple[int, int]] = {
         ("pressure", "compressive_strength", "cohesion", "tensile_strength", "strength", "prestress"), (1, -2)
     ),
     "unit_weight": (1, -3),
-    **dict.fromkeys(("axes", "faces", "direction", "facing", "factor", "coefficient"), (0, 0)),
+    **dict.fromkeys(("axes", "faces", "direction", "facing", "towards", "factor", "coefficient"), (0, 0)),
     **dict.fromkeys(
         ("friction", "sides", "fineness", "points", "gap", "angle", "width", "accuracy", "schema_version"),
         (0, 0),

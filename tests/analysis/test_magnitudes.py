@@ -86,6 +86,37 @@ def test_unit_weights_of_fill_and_of_what_presses_a_face_are_asked_about(weight,
         assert not said or asked[0].startswith(f"fill or pressure: {said}")
 
 
+@pytest.mark.parametrize("batter", [0.0, 1e-3, 0.5])
+def test_fill_on_both_sides_of_a_wall_is_asked_about(batter):
+    """K gamma h2 / 2 of 2 m on each side of a wall whose front leans, too; none where it ends there."""
+    wall = lb.Block.prism("wall", [(-1, 0), (1, 0), (1 - batter, 2), (-0.5, 2)], (-1, 1), 23e3)
+    blocks = [lb.Block.box("ground", (6, 3, 0.5), (0, 0, -0.25)), wall]
+    live, found = lb.mass_proportional((1, 0, 0)), lb.find_interfaces(blocks, lb.PointContact(0.6))
+    for side in ({}, {"beyond": (0, 0), "towards": (-1, 0, 0)}):
+        dead = lb.self_weight() + lb.loads.fill(18e3, 2.0, earth_pressure=0.33, **side)
+        asked = questions(lb.Model(blocks, ["ground"], found, dead, live))
+        assert len(asked) == (batter > 0.0 and not side)
+        assert not asked or asked[0].startswith(
+            "fill presses block 'wall' from both sides, where 23.76 kN of its earth pressure cancel"
+        )
+
+
+@pytest.mark.parametrize("name", ["arch", "arch, five facets", "dome", "two spans"])
+def test_fill_over_a_vault_is_on_both_sides_of_it(name):
+    joint, ring = lb.PointContact(0.6), {"thickness": 0.3, "voussoirs": 5}
+    model = {
+        "arch": lambda: structures.arch(joint, radius=2.0, **ring),
+        "arch, five facets": lambda: structures.arch(joint, radius=2.0, facets=5, **ring),
+        "dome": lambda: structures.dome(joint, radius=2.0, thickness=0.4, courses=3, stones=6),
+        "two spans": lambda: structures.arch_bridge(
+            joint, span=3.0, rise=0.7, spans=2, pier_width=0.7, pier_height=1.0, **ring
+        ),
+    }[name]()
+    for level in (1.5, 5.0):
+        load = lb.loads.fill(18e3, level, earth_pressure=0.33)
+        assert questions(replace(model, dead=model.dead + load)) == []
+
+
 @pytest.mark.parametrize("name", structures.EXAMPLES)
 def test_plausible_models_raise_no_question(name):
     assert questions(structures.EXAMPLES[name](lb.OrdunaLourenco(0.8, compressive_strength=3e5))) == []

@@ -27,7 +27,8 @@ TERMS = {
     + lb.loads.pressure("left", -THIRD, at=(-1.25, 0, 1)),
     "Hydrostatic": lb.loads.pressure(["left", "right"], facing=(-1, 0.1, 0), unit_weight=9810, level=1),
     "Fill": lb.loads.fill(18e3, 3, earth_pressure=THIRD)
-    + lb.loads.fill(18e3, 3 * THIRD + 2, blocks=["lintel"]),
+    + lb.loads.fill(18e3, 3 * THIRD + 2, blocks=["lintel"])
+    + lb.loads.fill(18e3, 3, beyond=(THIRD, 0), towards=(1, THIRD, 0)),
     "TopForce": lb.loads.top_force((0, 0, -1), (0, THIRD)),
     "LineLoad": lb.loads.line_load((0, 0, -1), (-1, -THIRD), (1, THIRD)),
 }
@@ -95,6 +96,7 @@ def test_defaults_may_be_left_out_and_directions_have_any_length(tmp_path):
         ({"type": "AddedMass", "block": "left", "weight": -1, "at": [0, 0, 1]}, ["live[0]", "weight is -1"]),
         ({"type": "Fill", "unit_weight": -1, "level": 3}, ["live[0]", "unit weight is -1"]),
         ({"type": "Fill", "unit_weight": 1, "level": 0}, ["live load", "level 0 m"]),
+        ({"type": "Fill", "unit_weight": 1, "level": 3, "beyond": [0, 1]}, ["live[0]", "given together"]),
         ({"type": "Pressure", "blocks": [], "pressure": 1, "facing": [1, 0, 0]}, ["live[0]", "no block"]),
         ({"type": "Pressure", "blocks": ["left"], "pressure": 1}, ["live[0]", "direction"]),
         (

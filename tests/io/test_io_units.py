@@ -38,7 +38,15 @@ SI = {
         {"type": "Moment", "block": "left", "moment": [0, 500.0, 0]},
         {"type": "AddedMass", "block": "lintel", "weight": 3e3, "at": [0, 0, 2.6]},
         {"type": "Pressure", "blocks": ["left"], "pressure": 200.0, "facing": [-1, 0, 0]},
-        {"type": "Fill", "unit_weight": 18e3, "level": 3.0, "blocks": ["lintel"], "coefficient": 0.3},
+        {
+            "type": "Fill",
+            "unit_weight": 18e3,
+            "level": 3.0,
+            "blocks": ["lintel"],
+            "coefficient": 0.3,
+            "beyond": [0.3, 0.1],
+            "towards": [1, 0, 0],
+        },
         {"type": "TopForce", "force": [0, 0, -50.0], "at": [0.3, 0.1]},
         {"type": "LineLoad", "force_per_length": [0, 0, -150.0], "start": [-1.0, 0.1], "end": [1.0, 0.1]},
     ],
@@ -73,6 +81,7 @@ def scaled(document, metre, newton):
     mass.update(weight=mass["weight"] / newton, at=over(mass["at"], metre))
     pressure["pressure"] *= metre**2 / newton
     fill.update(unit_weight=fill["unit_weight"] * metre**3 / newton, level=fill["level"] / metre)
+    fill["beyond"] = over(fill["beyond"], metre)
     top.update(force=over(top["force"], newton), at=over(top["at"], metre))
     line.update(
         force_per_length=over(line["force_per_length"], newton / metre),

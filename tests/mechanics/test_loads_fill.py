@@ -1,5 +1,7 @@
 """Fill on top of blocks: its weight and moment are those of the body of fill."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -128,6 +130,45 @@ def test_only_what_is_below_the_level_and_not_covered_gets_fill():
     assert load[0, 2] == pytest.approx(-GAMMA * 1.5 * (4 * 2 - 1 - 2))
 
 
+@pytest.mark.parametrize("courses", [1, 4])
+@pytest.mark.parametrize("batter", [0.0, 1e-3, 0.3])
+def test_fill_behind_a_battered_wall_presses_its_back_alone(courses, batter):
+    """The back leans .5 m over 2 m, the front by the batter: a wedge of fill, its thrust K gamma h2 / 2."""
+    length, height, k = 3.0, 2.0, 0.33
+    ends = np.linspace(0.0, 1.0, courses + 1)
+    stones = [
+        lb.Block.prism(
+            f"course {a}",
+            [(a / 2 - 1, height * a), (1 - batter * a, height * a), (1 - batter * b, height * b),
+             (b / 2 - 1, height * b)],
+            (0.0, length),
+        )
+        for a, b in pairwise(ends)
+    ]  # fmt: skip
+    load = lb.loads.fill(GAMMA, height, earth_pressure=k, beyond=(0.0, 9.0), towards=(-2.0, 0, 0)).on(stones)
+    thrust, weight = k * GAMMA * height**2 / 2 * length, GAMMA * 0.5 * height / 2 * length
+    assert load[:, :3].sum(axis=0) == pytest.approx([thrust, 0.0, -weight], abs=1e-6)
+    about = load[:, 3:] + np.cross([stone.centroid for stone in stones], load[:, :3])
+    # at a third of the height; the weight at that of the wedge, from x = -1 to -.5
+    expected = np.cross((0, length / 2, height / 3), (thrust, 0, 0))
+    expected += np.cross((-1 + 0.5 / 3, length / 2, 0), (0, 0, -weight))
+    assert about.sum(axis=0) == pytest.approx(expected, abs=1e-6)
+
+
+def test_fill_behind_a_stepped_wall_rests_on_the_ledges_behind_it():
+    """Ledges of 1 m on both sides; where the fill ends on one, that is cut."""
+    base = lb.Block.box("base", (3, 2, 1), (0, 0, 0.5))
+    wall = lb.Block.box("wall", (1, 2, 2), (0, 0, 2))
+    for place, length in (((0, 0), 1.0), ((-1.2, 5), 0.3), ((-0.4, 1), 1.0)):
+        load = lb.loads.fill(GAMMA, 3.0, beyond=place, towards=(-1, 0, 0)).on([base, wall])
+        weight = GAMMA * 2.0 * 2.0 * length
+        assert load[0, 2] == pytest.approx(-weight)
+        assert load[0, 4] == pytest.approx(-(1.5 - length / 2) * weight)
+        assert not load[1].any()
+    with pytest.raises(lb.ModelError, match=r"or not beyond \(-1.5, 0\) m in plan along -X"):
+        lb.loads.fill(GAMMA, 3.0, beyond=(-1.5, 0), towards=(-1, 0, 0)).on([base, wall])
+
+
 def test_a_hole_in_the_fill():
     slab = lb.Block.box("slab", (4, 4, 1), (0, 0, 0.5), 1.0)
     post = lb.Block.box("post", (1, 1, 5), (0.3, 0.2, 3.5), 1.0)
@@ -192,6 +233,9 @@ def test_fill_strengthens_and_models_can_be_analysed():
         (lambda: lb.loads.fill(0.0, LEVEL), "unit weight is 0.0"),
         (lambda: lb.loads.fill(GAMMA, np.nan), "level is nan"),
         (lambda: lb.loads.fill(GAMMA, LEVEL, earth_pressure=-0.3), "-0.3"),
+        (lambda: lb.loads.fill(GAMMA, LEVEL, towards=(1, 0, 0)), "are given together"),
+        (lambda: lb.loads.fill(GAMMA, LEVEL, beyond=(0, 0), towards=(1, 0, 1)), "a horizontal direction"),
+        (lambda: lb.loads.fill(GAMMA, LEVEL, beyond=(0, 0, 1), towards=(1, 0, 0)), "expected two finite"),
         (lambda: lb.loads.fill(GAMMA, LEVEL, blocks=["crown"]), "'crown'"),
         (lambda: lb.loads.fill(GAMMA, LEVEL, blocks=["Voussoir 6"]), "did you mean 'voussoir 6'?"),
         (lambda: lb.loads.fill(GAMMA, 5.0, blocks="voussoir 6"), "level 5 m"),

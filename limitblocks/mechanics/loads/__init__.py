@@ -1,5 +1,6 @@
 """Loads on blocks: weights, masses, forces, pressures, fill and line loads, and any sum of them."""
 
+from limitblocks.mechanics.loads.fills import Fill, fill
 from limitblocks.mechanics.loads.forces import (
     AddedMass,
     JointPressure,
@@ -14,7 +15,7 @@ from limitblocks.mechanics.loads.forces import (
 )
 from limitblocks.mechanics.loads.load import Load, unit_vector
 from limitblocks.mechanics.loads.pushes import Tilting, compass, tilting, turned
-from limitblocks.mechanics.loads.surfaces import Fill, Pressure, fill, pressure
+from limitblocks.mechanics.loads.surfaces import Pressure, pressure
 from limitblocks.mechanics.loads.tops import LineLoad, TopForce, line_load, top_force
 
 #: Every term that a model file may name.

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Protocol
 import numpy as np
 
 from limitblocks.arrays import Array, real, reals
-from limitblocks.errors import ModelError, few, near
+from limitblocks.errors import ModelError, few, near, sequence_of
 from limitblocks.geometry import Block
 
 _LARGEST = 1e30  # as in a model file: its powers are still numbers
@@ -139,6 +139,17 @@ def triple(values: Sequence[float], size: float = 1.0) -> str:
 def some(names: Sequence[str]) -> str:
     """Return the first of some names of blocks as text."""
     return f"block{'s' * (len(names) > 1)} {few([*map(repr, names)])}"
+
+
+def names_of(blocks: str | Sequence[str]) -> tuple[str, ...]:
+    """Return the names of one or more blocks; ModelError where they are none."""
+    return (blocks,) if isinstance(blocks, str) else sequence_of("blocks", blocks, str)
+
+
+def keep(term: object, **values: float) -> None:
+    """Keep numbers as floats in a frozen term, as the model file gives them back."""
+    for name, value in values.items():
+        object.__setattr__(term, name, value)
 
 
 def position(name: str, blocks: Sequence[Block]) -> int:

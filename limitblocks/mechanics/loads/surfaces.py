@@ -1,21 +1,21 @@
-"""Loads on faces: pressure, and fill on top."""
+"""Pressure on faces."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from limitblocks.arrays import Array, Indices
-from limitblocks.errors import ModelError, sequence_of
+from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.geometry.neighbours import bounds_of
-from limitblocks.mechanics.loads.exposed import open_to_the_sky
 from limitblocks.mechanics.loads.faces import faces_through, faces_towards, integrals, part_where
 from limitblocks.mechanics.loads.load import (
     Load,
     Vector,
+    keep,
+    names_of,
     number,
     of,
     position,
@@ -25,9 +25,6 @@ from limitblocks.mechanics.loads.load import (
     vector,
 )
 from limitblocks.shown import coordinate, coordinates
-
-UP = np.array([0.0, 0.0, 1.0])
-_NONE = 1e-12  # of a block's size cubed: less fill is what rounding leaves between shadows that meet
 
 
 @dataclass(frozen=True)
@@ -45,7 +42,7 @@ class Pressure:
     at: Vector | None = None
 
     def __post_init__(self) -> None:
-        _keep(
+        keep(
             self,
             pressure=number(self.pressure, "pressure", "Pa"),
             unit_weight=number(self.unit_weight, "pressure: unit weight", "N/m3", least=0.0),
@@ -97,68 +94,6 @@ class Pressure:
         return faces_towards(block, unit_vector(self.facing or (), "pressure: facing"))
 
 
-@dataclass(frozen=True)
-class Fill:
-    """Weight of fill of `unit_weight` (N/m3) up to `level` (m) on top of `blocks`; all free ones if empty."""
-
-    unit_weight: float
-    level: float
-    blocks: tuple[str, ...] = ()
-    coefficient: float = 0.0
-
-    def __post_init__(self) -> None:
-        _keep(
-            self,
-            unit_weight=number(self.unit_weight, "fill: unit weight", "N/m3", above=0.0),
-            level=number(self.level, "fill: level", "m"),
-            coefficient=number(self.coefficient, "fill: earth pressure", "1", least=0.0),
-        )
-
-    def on(self, blocks: Sequence[Block]) -> Array:
-        """Return forces and moments at the centroids, shape (n, 6)."""
-        load, lowest = np.zeros((len(blocks), 6)), np.inf
-        for k, face, weight, first in self.on_faces(blocks):
-            normal = blocks[k].normals[face]
-            # vertical stress p and horizontal stress K p act on the face; its area is the plan's over n_z
-            traction = np.array([*(self.coefficient * normal[:2] / normal[2]), 1.0])
-            load[k] -= np.concatenate([weight * traction, np.cross(first, traction)])
-            lowest = min(lowest, float(blocks[k].vertices[list(blocks[k].faces[face]), 2].min()))
-        if not load.any():
-            raise ModelError(
-                f"fill: level {self.level:g} m leaves no fill on any block: all faces lie above it (the "
-                f"lowest at {lowest:g} m) or below other blocks"
-            )
-        return load
-
-    def in_words(self) -> str:
-        """Return the term in words."""
-        said = f"fill of {self.unit_weight / 1e3:.4g} kN/m³ up to Z = {coordinate(self.level)} m"
-        said += f" on {some(self.blocks) if self.blocks else 'all blocks'}"
-        if not self.coefficient:
-            return said
-        return (
-            f"{said}, coefficient of horizontal earth pressure {self.coefficient:.4g} on faces that slope, "
-            "none on upright ones"
-        )
-
-    def on_faces(self, blocks: Sequence[Block]) -> Iterator[tuple[int, int, float, Array]]:
-        """Yield block, upward face, weight on it (N), and its first moments about the centroid (N m)."""
-        named = [position(name, blocks) for name in dict.fromkeys(self.blocks)]
-        bounds = bounds_of([block.vertices for block in blocks])
-        for k in named or range(len(blocks)):
-            block = blocks[k]
-            for face in np.flatnonzero(block.normals[:, 2] > 1e-6).tolist():
-                corners = block.vertices[list(block.faces[face])]
-                under, _ = part_where(corners, self.level - corners[:, 2])
-                weight, first = 0.0, np.zeros(3)
-                for ring in open_to_the_sky(under, block, face, self.level, blocks, bounds):
-                    stress = self.unit_weight * (self.level - ring[:, 2])
-                    p, px = integrals(ring - block.centroid, stress, UP)
-                    weight, first = weight + p, first + px
-                some_fill = weight > _NONE * self.unit_weight * block.size**3
-                yield k, face, weight * some_fill, first * some_fill
-
-
 def pressure(
     blocks: str | Sequence[str],
     pressure: float = 0.0,
@@ -205,7 +140,7 @@ def pressure(
         )
     return of(
         Pressure(
-            _names(blocks),
+            names_of(blocks),
             pressure,
             unit_weight,
             0.0 if level is None else level,
@@ -213,45 +148,3 @@ def pressure(
             None if at is None else vector(at, "pressure: at"),
         )
     )
-
-
-def fill(
-    unit_weight: float, level: float, *, blocks: str | Sequence[str] = (), earth_pressure: float = 0.0
-) -> Load:
-    """Return the weight of fill up to a level on the blocks below it, such as over the extrados of an arch.
-
-    On each face that looks upwards rests the fill right above it, up to the level. Assumed: the weight goes
-    straight down and does not spread; the fill has no strength and takes no load; its mass does not count in
-    mass-proportional loads. The parts of a face above the level, or with a free block between it and
-    the level, get none; supports cover nothing. With an earth pressure coefficient K, the horizontal stress K
-    times the vertical stress acts on the same faces, on their projections on vertical planes; a vertical face
-    gets none, use :func:`pressure` for it. Resultants and moments are exact integrals.
-
-    Parameters
-    ----------
-    unit_weight : float
-        N/m3.
-    level : float
-        Height Z of its horizontal surface, m.
-    blocks : str or sequence of str
-        Blocks that it rests on; all free blocks unless given.
-    earth_pressure : float
-        Coefficient K of horizontal earth pressure, >= 0.
-
-    Raises
-    ------
-    ModelError
-        If a number is out of range. Where the load meets its blocks (as a Model is made): if a block is not
-        free, or no block gets any fill.
-    """
-    return of(Fill(unit_weight, level, _names(blocks), earth_pressure))
-
-
-def _names(blocks: str | Sequence[str]) -> tuple[str, ...]:
-    return (blocks,) if isinstance(blocks, str) else sequence_of("blocks", blocks, str)
-
-
-def _keep(term: object, **values: float) -> None:
-    """Keep numbers as floats in a frozen term, as the model file gives them back."""
-    for name, value in values.items():
-        object.__setattr__(term, name, value)

@@ -1,0 +1,54 @@
+"""Slips in fill: earth pressure on both sides of a wall that retains it on one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.geometry import Block
+from limitblocks.mechanics.loads.faces import integrals
+from limitblocks.mechanics.loads.fills import UP, Fill
+from limitblocks.mechanics.loads.load import some
+from limitblocks.model import Model
+
+#: Share of the thrust on one side of a block that is asked about where as much acts on the other one.
+_MUCH = 0.1
+_ROUNDED = 1e-9  # of the fill on a face: less is missing by rounding
+
+
+def of_fills(model: Model) -> Iterator[str]:
+    """Return what is asked about fill: blocks that part it and are pressed by it from both sides."""
+    blocks = model.free_blocks
+    for _, term in model.dead.terms + model.live.terms:
+        if not isinstance(term, Fill) or not term.coefficient:
+            continue
+        thrusts: dict[int, list[Array]] = {}
+        parted = set()
+        for k, face, weight, _ in term.on_faces(blocks):
+            normal = blocks[k].normals[face]
+            thrusts.setdefault(k, []).append(term.coefficient * weight * normal[:2] / normal[2])
+            if not weight or abs(weight - _above(blocks[k], face, term)) > _ROUNDED * weight:
+                parted.add(k)
+        lost = {k: back for k in parted if (back := _cancelled(np.array(thrusts[k])))}
+        if lost:
+            what = f"{sum(lost.values()) / 1e3:.4g} kN of its earth pressure cancel"
+            yield (
+                f"fill presses {some([blocks[k].name for k in sorted(lost)])} from both sides, where {what}: "
+                "is there fill on both? If on one, say beyond which place and towards where"
+            )
+
+
+def _above(block: Block, face: int, fill: Fill) -> float:
+    """Weight of the fill over a whole face that nothing covers, N."""
+    corners = block.vertices[list(block.faces[face])]
+    return integrals(corners, fill.unit_weight * (fill.level - corners[:, 2]), UP)[0]
+
+
+def _cancelled(thrusts: Array) -> float:
+    """Thrust against the largest one, N, if it is much beside what acts along that one; thrusts (n, 2)."""
+    sizes = np.linalg.norm(thrusts, axis=1)
+    along = thrusts @ thrusts[sizes.argmax()] / (sizes.max() or 1.0)
+    back = -float(along.clip(max=0.0).sum())
+    return back if back > _MUCH * along.clip(0.0).sum() else 0.0
