@@ -12,7 +12,7 @@ from typing import Any
 
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
-from limitblocks.errors import ModelError, NoEquilibrium, refuse_kind
+from limitblocks.errors import ModelError, NoEquilibrium, SolveError, refuse_kind
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry.polygon import areas
@@ -43,7 +43,7 @@ class DesignValue:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Adequacy(Result):
-    """The load factor with partial factors, beside the characteristic one.
+    """The load factor with partial factors, beside the characteristic one of the same flow rule.
 
     Attributes
     ----------
@@ -58,6 +58,8 @@ class Adequacy(Result):
         Of the design model, associated.
     result : Nonassociated or None
         Of the design model, without dilatancy; None where it was not asked for.
+    characteristic_result : Nonassociated or None
+        Of the model as given, without dilatancy; None where it was not asked for or there is no answer.
     digest : str
         SHA-256 of the model that was given.
     """
@@ -68,12 +70,18 @@ class Adequacy(Result):
     model: Model
     bounds: Bounds
     result: Nonassociated | None
+    characteristic_result: Nonassociated | None
     digest: str
 
     @property
     def factor(self) -> float:
         """Adequacy factor, on the design live loads: without dilatancy where that was asked for."""
-        return float(self.result.load_factor if self.result else self.bounds.lower)
+        return _factor(self.result, self.bounds)
+
+    @property
+    def characteristic_factor(self) -> float:
+        """Load factor of the model as given: without dilatancy where that has an answer."""
+        return _factor(self.characteristic_result, self.characteristic)
 
     @property
     def satisfied(self) -> bool:
@@ -96,13 +104,22 @@ class Adequacy(Result):
             **kept(self, "digest", "factors", "values"),
             "adequacy_factor": self.factor,
             **kept(self, "satisfied", "model", "characteristic", "bounds", "result"),
+            **kept(self, "characteristic_result"),
         }
 
     def __str__(self) -> str:
-        flow = "without dilatancy" if self.result else "associated"
         least = "at least one" if self.satisfied else "LESS than one"
-        given = f"characteristic load factor {self.characteristic.lower:.6g}, associated"
-        return self._line(f"adequacy factor {self.factor:.6g} ({flow}), {least}", given, *self.remarks)
+        given = f"{self.characteristic_factor:.6g}, {_flow(self.characteristic_result)}"
+        found = f"adequacy factor {self.factor:.6g} ({_flow(self.result)}), {least}"
+        return self._line(found, f"characteristic load factor {given}", *self.remarks)
+
+
+def _factor(result: Nonassociated | None, pair: Bounds) -> float:
+    return float(result.load_factor if result else pair.lower)
+
+
+def _flow(result: Nonassociated | None) -> str:
+    return "without dilatancy" if result else "associated"
 
 
 def adequacy(model: Model, factors: PartialFactors, *, without_dilatancy: bool = True) -> Adequacy:
@@ -118,7 +135,7 @@ def adequacy(model: Model, factors: PartialFactors, *, without_dilatancy: bool =
         With characteristic values.
     factors : PartialFactors
     without_dilatancy : bool
-        Whether the design model is analysed without dilatancy as well.
+        Whether both models are analysed without dilatancy as well.
 
     Raises
     ------
@@ -134,8 +151,13 @@ def adequacy(model: Model, factors: PartialFactors, *, without_dilatancy: bool =
         pair = bounds(design)
     except NoEquilibrium as error:
         raise NoEquilibrium(error.blocks, error.left_out, "with design values the dead loads alone") from None
-    result = nonassociated(design) if without_dilatancy else None
-    return Adequacy(factors, values, bounds(model), design, pair, result, model.digest)
+    result = given = nonassociated(design) if without_dilatancy else None
+    if without_dilatancy and design.digest != model.digest:
+        try:
+            given = nonassociated(model)
+        except SolveError:  # the adequacy factor does not depend on it
+            given = None
+    return Adequacy(factors, values, bounds(model), design, pair, result, given, model.digest)
 
 
 def design_model(model: Model, factors: PartialFactors) -> Model:

@@ -21,7 +21,14 @@ FACTORED = (
 def adequacy_section(_model: Model, found: Adequacy) -> Section:
     """Return the section of a load factor with partial factors."""
     end = found.result or found.bounds
-    real = [("Without dilatancy", figures(found.factor, 7), "of the design model")] if found.result else []
+    real = [
+        (word, figures(one.load_factor, 7), of)
+        for word, one, of in (
+            ("Characteristic, without dilatancy", found.characteristic_result, "as given"),
+            ("Without dilatancy", found.result, "of the design model"),
+        )
+        if one
+    ]
     rows = [
         (one.symbol, one.where, with_unit(one.characteristic, one.unit), one.factor,
          f"{found.factors.value(one.factor):.6g}", with_unit(one.design, one.unit))

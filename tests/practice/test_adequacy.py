@@ -186,6 +186,27 @@ def test_report_has_design_beside_characteristic_values():
     assert "not judged here" in made.text
 
 
+def test_the_characteristic_load_factor_is_of_the_same_flow_rule(monkeypatch):
+    """With factors of one it is the adequacy factor itself; .4037 is that of joints that dilate."""
+    model = lb.structures.ferris_tin_loi_wall(3, lb.OrdunaLourenco(0.65))
+    found = adequacy(model, PartialFactors(1.0, 1.0, 1.0))
+    assert found.characteristic_factor == found.factor == lb.nonassociated(model).load_factor
+    assert found.characteristic_factor < 0.9 * found.characteristic.lower
+    assert f"characteristic load factor {found.factor:.6g}, without dilatancy" in str(found)
+    assert "Characteristic, without dilatancy" in lb.report(model, found).text
+    doubled = adequacy(model, PartialFactors(1.0, 2.0, 1.0))
+    assert doubled.characteristic_factor == found.factor
+    assert doubled.factor == pytest.approx(found.factor / 2.0, rel=1e-3)
+
+    def lost(own):
+        if own is model:
+            raise lb.errors.SolverFailure("no answer")
+        return lb.nonassociated(own)
+
+    monkeypatch.setitem(adequacy.__globals__, "nonassociated", lost)
+    assert "characteristic load factor 0.403694, associated" in str(adequacy(model, doubled.factors))
+
+
 def test_command(tmp_path):
     pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")
     file = block().save(tmp_path / "block.json")
