@@ -86,6 +86,7 @@ def import_blocks(
         from limitblocks.analysis.uncarried import uncarried, uncarried_words
         from limitblocks.io.blocks import read_blocks
         from limitblocks.io.formats.dxf.elevation import read_drawing, refuse_with_thickness
+        from limitblocks.io.guesses import on_side
         from limitblocks.io.structure_file import model_of
         from limitblocks.mechanics.loads import mass_proportional
 
@@ -109,10 +110,11 @@ def import_blocks(
             tolerances = {k: getattr(used, k) if given is None else given for k, given in tolerances.items()}
         made: Any = {"joint": law, "materials": table, "supports": supports, "name": file.stem}
         model, contacts, vain = model_of(imported, live=mass_proportional(live), **made, **tolerances)
+        lying = on_side(model.blocks, model.supports) if up is None and thickness is None else ()
         hung = uncarried_words(uncarried(model, model.tolerances))
         nothing = [] if hung else contacts.nothing
         notes = (*imported.notes, *_joint_words(model, table), contacts.accuracy, *nothing)
-        _tell(model, notes, (*imported.guesses, *vain, *contacts.warnings, *hung))
+        _tell(model, notes, (*imported.guesses, *lying, *vain, *contacts.warnings, *hung))
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 
 from limitblocks.arrays import Array
+from limitblocks.geometry import Block
 from limitblocks.geometry.neighbours import bounds_of
 from limitblocks.shown import many
 
@@ -32,8 +33,9 @@ _LONG = 10.0
 _BLOCK = 0.4
 _CANDIDATES = {"cm": 0.01, "mm": 0.001}  # metres per unit
 _MOST_PAIRS = 1_000_000  # of blocks one above the other, of which a share is looked at beyond
-_FEWEST = 4  # blocks that tell which way is up
+_FEWEST = 4  # blocks that tell which way is up where no support is named
 _ALL, _MOST, _HALF = 0.98, 0.9, 0.5
+_LOWER = 0.49  # of the height: the middle of a support as long as the structure is above
 
 
 class Boxes(NamedTuple):
@@ -110,12 +112,14 @@ def tilted(boxes: Boxes, up: str) -> str:
     axis stacks them, whose blocks hang over nothing although the other axis carries them all, or whose
     supports are at the bottom of the other axis only, lies on its side.
     """
-    if len(boxes.low) < _FEWEST or not np.isfinite(boxes.size):
+    if not np.isfinite(boxes.size):
         return ""
     a, b = (1, 2) if up == "y" else (2, 1)
     this, other = "XYZ"[a], "XYZ"[b]
-    if boxes.support.any() and _at_bottom(boxes, b) and not _at_bottom(boxes, a, _HALF):
+    if _on_side(boxes, a, b):
         return f"the blocks whose names say support are at the bottom along {other}, not along {this}"
+    if len(boxes.low) < _FEWEST:
+        return ""
     ground, carried = _shares(boxes, a)
     ground_b, carried_b = _shares(boxes, b)
     n = len(boxes.low)
@@ -130,6 +134,22 @@ def tilted(boxes: Boxes, up: str) -> str:
             f"{round((1.0 - carried_b) * n)} with {other} up"
         )
     return ""
+
+
+def on_side(blocks: Sequence[Block], supports: Sequence[str]) -> list[str]:
+    """Return the question about blocks whose `supports`, as chosen, are at the bottom along Y alone."""
+    named = np.array([block.name in supports for block in blocks])
+    if not _on_side(Boxes(*bounds_of([block.vertices for block in blocks]), named), 2, 1):
+        return []
+    return [
+        "seems to lie on its side: the supports are at the bottom along Y, not along Z; if so, say which "
+        "axis of the file points up (up, --up)"
+    ]
+
+
+def _on_side(boxes: Boxes, a: int, b: int) -> bool:
+    """Return whether the supports are at the bottom along the axis `b`, and not along `a`."""
+    return bool(boxes.support.any()) and _at_bottom(boxes, b) and not _at_bottom(boxes, a, _LOWER)
 
 
 def _at_bottom(boxes: Boxes, axis: int, share: float = 1.0 / 3.0) -> bool:

@@ -14,6 +14,7 @@ from limitblocks.geometry.selection import listed
 from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, model_file
 from limitblocks.io.blocks import is_model_file, read_blocks
+from limitblocks.io.guesses import on_side
 from limitblocks.io.imported import ImportedBlocks, UnitWeight
 from limitblocks.io.materials import read_materials, refuse_jointless
 from limitblocks.io.open_joints import joined
@@ -107,7 +108,8 @@ def read(
     made |= {"live": live, "dead": dead, "gap": gap, "angle": angle, "width": width, "name": path.stem}
     with faults.named(path):
         model, contacts, vain = model_of(imported, **made)
-    seen = (*contacts.warnings, *uncarried_words(uncarried(model, model.tolerances)))
+    lying = on_side(model.blocks, model.supports) if up is None else ()
+    seen = (*lying, *contacts.warnings, *uncarried_words(uncarried(model, model.tolerances)))
     for line in (*imported.notes, *imported.guesses, *vain, *seen, *questions(model)):
         _log.warning("%s: %s", path, line)
     _log.info("%s: %s", path, contacts.accuracy)

@@ -76,6 +76,30 @@ def test_supports_by_name_tell_the_axis_up_of_a_dome(tmp_path):
     assert "the blocks whose names say support are at the bottom along Y, not along Z" in warning
 
 
+@pytest.mark.parametrize("name", ["barrel_vault", "dome", "block"])
+@pytest.mark.parametrize("said", ["support", "stone"])
+def test_supports_as_long_as_a_vault_and_few_blocks_tell_the_axis_up(name, said, tmp_path, caplog):
+    """The middle of supports along all of a vault along Y is half way up where that lies on its side."""
+    model = EXAMPLES[name](JOINT)
+    names = {own: f"{said} {k}" for k, own in enumerate(model.supports)}
+    blocks = [replace(b, name=names.get(b.name, f"b{k}")) for k, b in enumerate(model.blocks)]
+    files = [
+        lb.files.write_blocks(made, tmp_path / file)
+        for made, file in (
+            (blocks, "z.obj"),
+            ([block.moved(Y_UP, (0.0, 0.0, 0.0)) for block in blocks], "y.obj"),
+        )
+    ]
+    assert lb.files.read_blocks(files[0]).guesses == ()
+    guessed = lb.files.read_blocks(files[1]).guesses
+    assert len(guessed) == (said == "support")
+    given = {"joint": JOINT, "unit_weight": 20e3, "live": LIVE, "supports": list(names.values())}
+    for file, up, asked in ((files[0], None, False), (files[1], None, not guessed), (files[1], "z", False)):
+        caplog.clear()
+        lb.read(file, **given, up=up)
+        assert ("seems to lie on its side: the supports are at the bottom along Y" in caplog.text) == asked
+
+
 def test_a_format_that_says_its_axis_is_believed_with_a_question(tmp_path):
     """A wall written with Z up into glTF, whose standard is Y up, lies on its back."""
     blocks = [block.moved(Y_UP.T, (0.0, 0.0, 0.0)) for block in plain(EXAMPLES["wall"](JOINT))]
