@@ -355,3 +355,45 @@ def test_axes_off_the_sides_of_a_rectangle_are_asked_about(angle, asked):
     assert len([one for one in said if "rad off the sides" in one]) == asked
     torsion = [joint.strength(one, (0, 0, 0, 0, 0, 1.0), (0, 0, -1.0, 0, 0, 0)) for one in (own, turned)]
     assert torsion[1] / torsion[0] == pytest.approx(max(abs(c), abs(s)), abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("dead", "said"),
+    [
+        (lb.loads.fill(18e3, 1.5), "lacks the weight of block 'block 1', 1e+04 N: add self_weight()"),
+        (lb.self_weight() - lb.self_weight(), "lacks the weight of block 'block 1'"),
+        (lb.self_weight() + lb.self_weight(), "has 2 times the weight of block 'block 1', 1e+04 N"),
+        (1.35 * (lb.self_weight() + 0.1 * lb.self_weight()), ""),
+        (1.5 * lb.self_weight(), ""),
+        (lb.loads.tilting((1, 0, 0)).at(1.5), ""),
+        (lb.loads.force("block 1", (0, 0, -9.7e3), (0, 0, 0.5)), ""),  # the weight of a curved stone
+    ],
+)
+def test_self_weight_that_is_forgotten_or_given_twice_is_asked_about(dead, said):
+    """A block of .5 m x 1 m x 1 m and 20 kN/m3: 10 kN."""
+    asked = questions(replace(block(), dead=dead))
+    assert len(asked) == bool(said)
+    assert not said or said in asked[0]
+
+
+def test_self_weight_that_the_load_factor_multiplies_is_not_forgotten():
+    held = lb.loads.force("block 1", (5e3, 0, 0), (0, 0, 0.5))
+    assert questions(replace(block(), dead=held, live=lb.mass_proportional((0, 0, -1)))) == []
+
+
+@pytest.mark.parametrize(
+    ("more", "asked"),
+    [
+        (lb.loads.fill(18e3, 2.5), 1),
+        (lb.loads.fill(18e3, 2.5004), 1),  # rounded to a millimetre
+        (lb.loads.fill(20e3, 2.5, blocks=["voussoir 1", "voussoir 2"]), 1),
+        (lb.loads.fill(3e3, 2.3), 0),  # a heavier layer below
+        (-1.0 * lb.loads.fill(18e3, 2.5, blocks="voussoir 1"), 0),
+    ],
+)
+def test_fill_given_twice_is_asked_about(more, asked):
+    """Up to .3 m above the crown of a ring of 2 m and .4 m: 2.5 m."""
+    model = arched(fill=(0.3, 18e3))
+    said = questions(replace(model, dead=model.dead + more))
+    assert len(said) == asked
+    assert all("Z = 2.5 m on blocks 'voussoir 1', 'voussoir 2'" in one for one in said)
