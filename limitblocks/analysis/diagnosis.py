@@ -1,23 +1,25 @@
-"""What the blocks of a model show that its interfaces do not."""
+"""What is worth a look in a model: numbers hardly meant, and what its interfaces lack."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TypeVar
 
+from limitblocks.analysis.magnitudes import questions
 from limitblocks.analysis.uncarried import uncarried, uncarried_words
 from limitblocks.errors import few
 from limitblocks.geometry import Contacts, Interface, NearMiss, Overlap, Sliver, Through, find_contacts
 from limitblocks.geometry.accuracy import Accuracy, chosen
 from limitblocks.geometry.off_faces import off_faces
 from limitblocks.model import Model, checked_model
+from limitblocks.shown import many
 
 _Pair = TypeVar("_Pair", Interface, NearMiss, Overlap, Sliver, Through)
 
 
 @dataclass(frozen=True, repr=False)
 class Diagnosis(Contacts):
-    """What contact detection sees in the blocks of a model beside its interfaces; see :class:`Contacts`.
+    """What is worth a look in a model: its numbers, and what its blocks show; see :class:`Contacts`.
 
     Attributes
     ----------
@@ -33,27 +35,37 @@ class Diagnosis(Contacts):
     uncarried : tuple of str
         Free blocks that no interface pushes or pulls against their dead load: friction alone holds them, if
         anything.
+    questions : tuple of str
+        What is asked about numbers and loads of the model that are hardly meant, with what probably was.
     """
 
     off_faces: tuple[str, ...] = ()
     uncarried: tuple[str, ...] = ()
+    questions: tuple[str, ...] = ()
 
     @property
     def warnings(self) -> list[str]:
-        """A line for each kind of thing found, and for each overlap."""
+        """A line for each question, for each kind of thing found, and for each overlap."""
+        return [*self.questions, *self._found]
+
+    @property
+    def _found(self) -> list[str]:
         pairs = dict.fromkeys(one.name for one in self.interfaces)
         missing = self._line("no interface between blocks that touch", tuple(pairs))
-        own = off_words(self.off_faces) + uncarried_words(self.uncarried)
-        return missing + own + super().warnings
+        return missing + off_words(self.off_faces) + uncarried_words(self.uncarried) + super()._found
 
     def __str__(self) -> str:
-        return f"beside the interfaces of the model: {super().__str__()}"
+        asked = f"{many(len(self.questions), 'question')}; " if self.questions else ""
+        return f"{asked}beside the interfaces of the model: {super().__str__()}"
 
 
 def diagnose(
     model: Model, *, gap: float | None = None, angle: float | None = None, width: float | None = None
 ) -> Diagnosis:
-    """Return what the blocks of `model` show that its interfaces do not; nothing between two supports.
+    """Return what is worth a look in `model` before it is analysed: numbers hardly meant, contacts missing.
+
+    Its numbers are those that reports and the command line ask about. Of its blocks it is what they show that
+    the interfaces do not; nothing between two supports. `warnings` says all of it, a line each.
 
     Parameters
     ----------
@@ -97,6 +109,7 @@ def diagnose(
         chosen=contacts.chosen,
         off_faces=off_faces(model.blocks, model.interfaces, contacts.tolerances),
         uncarried=uncarried(model, contacts.tolerances),
+        questions=tuple(questions(model)),
     )
 
 

@@ -130,11 +130,15 @@ class Contacts(Shown):
     @property
     def nothing(self) -> list[str]:
         """The line that nothing was found; none where something was."""
-        return [] if self.warnings else ["nothing found beside the interfaces with these tolerances"]
+        return [] if self._found else ["nothing found beside the interfaces with these tolerances"]
 
     @property
     def warnings(self) -> list[str]:
         """A line for each kind of thing found beside the interfaces, and for each overlap."""
+        return self._found
+
+    @property
+    def _found(self) -> list[str]:
         lines = [self._coarse] if self._coarse else []
         lines += [*self._remedy_of_all]
         lines += self._overlap_words[:_SHOWN]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from limitblocks.analysis.diagnosis import diagnose
-from limitblocks.analysis.magnitudes import questions, weightless
+from limitblocks.analysis.magnitudes import weightless
 from limitblocks.drawing.elevations import dimensions, length
 from limitblocks.errors import few
 from limitblocks.geometry import Interface
@@ -62,7 +62,7 @@ def facts(model: Model) -> dict[str, Any]:
         "tolerances": diagnosis.accuracy,
         "diagnosis": diagnosis.to_dict(),
         "findings": findings(model, diagnosis),
-        "warnings": questions(model) + diagnosis.warnings,
+        "warnings": diagnosis.warnings,
     }
 
 
@@ -125,7 +125,7 @@ def findings(model: Model, diagnosis: Any) -> list[list[str]]:
         ("Strips left out because they are too narrow", diagnosis.strips),
         ("Contacts left out because a third block lies between", diagnosis.through),
         ("Blocks without weight", weightless(model)),
-        ("Numbers that look like slips in their unit", questions(model)),
+        ("Numbers and loads that look like slips", diagnosis.questions),
     )
     return [[words, few([*map(str, things)]) or "checked, nothing found"] for words, things in looked]
 

@@ -397,3 +397,12 @@ def test_fill_given_twice_is_asked_about(more, asked):
     said = questions(replace(model, dead=model.dead + more))
     assert len(said) == asked
     assert all("Z = 2.5 m on blocks 'voussoir 1', 'voussoir 2'" in one for one in said)
+
+
+def test_diagnose_asks_what_reports_and_the_command_line_ask_once():
+    model = block(lb.PointContact(30.0))
+    found = lb.diagnose(model)
+    assert found.warnings == list(found.questions) == ["friction is 30: degrees? tan 30 deg = 0.577"]
+    assert str(found).startswith("1 question; ")
+    assert found.nothing  # of its contacts
+    assert lb.report(model, lb.bounds(model)).text.count("- friction is 30:") == 1

@@ -172,8 +172,8 @@ def model_of(blocks, interfaces, supports=("ground",)):
 
 BLOCKS = [
     box("ground", (4, 1, 1), (0, 0, -0.5)),
-    box("left", UNIT, (-0.5, 0, 0.5), 1e3),
-    box("right", UNIT, (0.5, 0, 0.5), 1e3),
+    box("left", UNIT, (-0.5, 0, 0.5), 20e3),
+    box("right", UNIT, (0.5, 0, 0.5), 20e3),
 ]
 
 
