@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from limitblocks.errors import ModelError, few, missing, sequence_of
 from limitblocks.geometry import Block, Interface, Tolerances
+from limitblocks.geometry.contact import nearly_tied
 from limitblocks.geometry.ends import floating
 from limitblocks.geometry.given_interfaces import interface_faults
 from limitblocks.geometry.interface import PLACE
@@ -243,7 +244,11 @@ def _floating_problems(model: Model) -> list[str]:
     """Free blocks that no chain of interfaces ties to a support."""
     loose = floating(model.blocks, model.interfaces, model.supports)
     said = f"floating: no chain of interfaces ties {few([*map(repr, loose)])} to a support"
-    return [said, *missing(model.left_out)] if loose else []
+    return (
+        [said + nearly_tied(model.blocks, set(loose), model.tolerances), *missing(model.left_out)]
+        if loose
+        else []
+    )
 
 
 def _load_problems(model: Model) -> list[str]:

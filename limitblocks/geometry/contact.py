@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections import Counter
 from collections.abc import Sequence
 from operator import itemgetter
@@ -12,7 +13,7 @@ import shapely
 from limitblocks.arrays import Array, Indices
 from limitblocks.errors import ModelError, sequence_of
 from limitblocks.geometry import polygon
-from limitblocks.geometry.accuracy import ANGLE, GAP, Accuracy, block_length, chosen
+from limitblocks.geometry.accuracy import ANGLE, GAP, Accuracy, Tolerances, block_length, chosen
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.contacts import Contacts
 from limitblocks.geometry.faces import FaceTable, all_faces, opposed
@@ -23,6 +24,7 @@ from limitblocks.geometry.neighbours import neighbours
 from limitblocks.geometry.overlap import find_overlaps
 from limitblocks.geometry.patches import Patches, mean_width, patches, pieces_of
 
+_log = logging.getLogger("limitblocks")
 #: Distance from the line through its neighbours, relative to the root of the area, of a needless vertex.
 VERTEX_TOLERANCE = 1e-6
 #: Times the tolerances of blocks drawn exactly, and times those in use, that bound near misses.
@@ -45,8 +47,8 @@ def find_interfaces(
     the cube root of their volume. The interface lies midway between the two planes. Areas below 1e-3 of the
     block length squared and of the smaller face, whichever is less, are dropped, and strips narrower than
     `width`: where stones meet at an edge they would be shear keys that are not there. Faces between which
-    a third block lies do not touch. :func:`find_contacts` lists all that was dropped. Contacts along an edge
-    or at a vertex give no interface.
+    a third block lies do not touch. Contacts along an edge or at a vertex give no interface. Faces that
+    nearly touch are logged as a warning; :func:`find_contacts` lists them and all that was dropped.
 
     Tolerances that are not given are chosen by the accuracy that the faces themselves show: half the
     variation of the gap over a joint, the median over all joints. The gap is six times this, the angle eight
@@ -87,6 +89,8 @@ def find_interfaces(
     """
     contacts = find_contacts(blocks, joint, gap=gap, angle=angle, width=width)
     contacts.require()
+    for line in contacts.near_words:
+        _log.warning("%s", line)
     return contacts.interfaces
 
 
@@ -145,6 +149,14 @@ def find_contacts(
         facets=int(np.median(np.unique(ends, axis=0, return_counts=True)[1])) if len(ends) else 0,
         chosen=gap is None,
     )
+
+
+def nearly_tied(blocks: Sequence[Block], loose: set[str], used: Tolerances | None) -> str:
+    """Return the nearest miss between loose blocks and others, as a clause; empty where there is none."""
+    asked = {key: getattr(used, key, None) for key in ("gap", "angle", "width")}
+    near = find_contacts(blocks, None, **asked).near_misses
+    across = [one for one in near if (one.block_i in loose) != (one.block_j in loose)]
+    return f"; nearly touching: {min(across, key=lambda one: abs(one.gap))}" if across else ""
 
 
 def _checked(blocks: Sequence[Block], joint: object) -> tuple[Block, ...]:

@@ -45,7 +45,7 @@ def joined(contacts: Contacts, blocks: Sequence[Block], *rest: Any) -> Model:
     try:
         return Model(blocks, *rest)
     except ModelError as error:
-        apart = open_joints(contacts, blocks) or contacts.near_words or _open_beds(contacts, blocks)
+        apart = open_joints(contacts, blocks) or _open_beds(contacts, blocks)
         raise ModelError(*error.problems, *apart) from None
 
 

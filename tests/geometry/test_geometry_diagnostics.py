@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from bodies import moved, triangulated
 from scipy.spatial.transform import Rotation
+from stones import portal_stones
 
 import limitblocks as lb
 from limitblocks.analysis.diagnosis import astray
@@ -187,6 +188,26 @@ def test_contact_without_an_interface_in_the_model():
     model = model_of(BLOCKS, [one for one in interfaces if one.block_i == "ground"])
     assert ends(lb.diagnose(model).interfaces) == {("left", "right")}
     assert lb.diagnose(model).warnings == ["no interface between blocks that touch: left|right"]
+
+
+def test_a_leg_that_is_too_short_is_not_left_out_in_silence(caplog):
+    """A leg of a portal 1.5 mm short of the lintel has no interface with it."""
+    stones = portal_stones()
+    short = box("middle", (0.5, 1, 1.9985), (0, 0, 0.99925), 20e3)
+    assert len(find_interfaces(stones, lb.PointContact(0.6))) == 4
+    assert caplog.messages == []
+    find_interfaces([*stones, short], lb.PointContact(0.6))
+    (said,) = caplog.messages
+    assert "nearly touch: lintel|middle (gap 0.0015 m" in said
+
+
+@pytest.mark.parametrize(("apart", "said"), [(1.5e-3, "left|top (gap 0.0015 m"), (0.1, "")])
+def test_a_block_that_floats_for_a_narrow_gap_says_which(apart, said):
+    top = box("top", UNIT, (-0.5, 0, 1.5 + apart), 20e3)
+    with pytest.raises(lb.ModelError, match="ties 'top' to a support") as error:
+        model_of([*BLOCKS, top], find_interfaces(BLOCKS, lb.PointContact(0.6)))
+    assert ("nearly touching: left|top" in str(error.value)) is bool(said)
+    assert said in str(error.value)
 
 
 def test_what_is_between_supports_is_left_out():
