@@ -33,8 +33,8 @@ def of_weights(model: Model) -> Iterator[str]:
             f"factors up to {_MOST:g}: self_weight() given twice?"
         )
     grows = live[2] < 0.0 and not live[:2].any()  # the weight is what the load factor multiplies
-    if model.dead.terms and not dead.any() and not grows and (left := _not_by_hand(model.dead, heavy)):
-        yield f"the dead load lacks the weight of {_weights(left)}: add self_weight()"
+    if heavy and model.dead.terms and not dead.any() and not grows and not _by_hand(model.dead, heavy):
+        yield f"the dead load lacks the weight of {_weights(heavy)}: add self_weight()"
 
 
 def _times(load: Load) -> Array:
@@ -43,13 +43,13 @@ def _times(load: Load) -> Array:
     return sum((k * np.array(direction) for k, direction in own), np.zeros(3))
 
 
-def _not_by_hand(dead: Load, blocks: Sequence[Block]) -> list[Block]:
-    """Return the blocks whose weight no forces carry, such as those at the centroids of curved stones."""
+def _by_hand(dead: Load, blocks: Sequence[Block]) -> bool:
+    """Whether forces carry the weight of some block, such as at the centroids of curved stones."""
     down = dict.fromkeys((block.name for block in blocks), 0.0)
     for factor, term in dead.terms:
         if isinstance(term, PointForce) and term.block in down:
             down[term.block] -= factor * term.force[2]
-    return [block for block in blocks if abs(down[block.name] - block.weight) > _CURVED * block.weight]
+    return any(abs(down[block.name] - block.weight) <= _CURVED * block.weight for block in blocks)
 
 
 def _weights(blocks: Sequence[Block]) -> str:

@@ -376,6 +376,13 @@ def test_self_weight_that_is_forgotten_or_given_twice_is_asked_about(dead, said)
     assert not said or said in asked[0]
 
 
+def test_weights_given_as_forces_are_not_forgotten_where_one_is_left_out():
+    """A block of soil that the load factor moves, say, beside a wall of 20 kN."""
+    model = lb.structures.column(lb.PointContact(0.6), count=2, width=1.0, height=1.0)
+    weight = lb.loads.force("block 1", (0, 0, -model.free_blocks[0].weight), (0, 0, 0.5))
+    assert questions(replace(model, dead=weight)) == []
+
+
 def test_self_weight_that_the_load_factor_multiplies_is_not_forgotten():
     held = lb.loads.force("block 1", (5e3, 0, 0), (0, 0, 0.5))
     assert questions(replace(block(), dead=held, live=lb.mass_proportional((0, 0, -1)))) == []
