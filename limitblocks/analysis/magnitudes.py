@@ -9,7 +9,7 @@ import numpy as np
 
 from limitblocks.analysis.magnitudes_of_fills import of_fills
 from limitblocks.analysis.magnitudes_of_ties import of_ties
-from limitblocks.analysis.magnitudes_of_weight import of_fills, of_weights
+from limitblocks.analysis.magnitudes_of_weight import of_weights
 from limitblocks.arrays import Array
 from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.geometry.accuracy import block_length
@@ -65,7 +65,6 @@ def questions(model: Model) -> list[str]:
     return [
         *asked,
         *of_weights(model),
-        *of_fills(model),
         *_of_forces(model, size),
         *of_fills(model),
         *of_ties(model),

@@ -1,8 +1,9 @@
-"""Slips in fill: earth pressure on both sides of a wall that retains it on one."""
+"""Slips in fill: given twice, or pressing both sides of a wall that retains it on one."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import combinations
 
 import numpy as np
 
@@ -12,14 +13,23 @@ from limitblocks.mechanics.loads.faces import integrals
 from limitblocks.mechanics.loads.fills import UP, Fill
 from limitblocks.mechanics.loads.load import some
 from limitblocks.model import Model
+from limitblocks.shown import coordinate
 
+#: Levels of fill, m, that are nearer are the same: a message shows no more.
+_SAME = 1e-3
 #: Share of the thrust on one side of a block that is asked about where as much acts on the other one.
 _MUCH = 0.1
 _ROUNDED = 1e-9  # of the fill on a face: less is missing by rounding
 
 
 def of_fills(model: Model) -> Iterator[str]:
-    """Return what is asked about fill: blocks that part it and are pressed by it from both sides."""
+    """Return what is asked about the fill of a model."""
+    yield from _twice(model)
+    yield from _on_both_sides(model)
+
+
+def _on_both_sides(model: Model) -> Iterator[str]:
+    """Return what is asked about blocks that part the fill and are pressed by it from both sides."""
     blocks = model.free_blocks
     for _, term in model.dead.terms + model.live.terms:
         if not isinstance(term, Fill) or not term.coefficient:
@@ -52,3 +62,22 @@ def _cancelled(thrusts: Array) -> float:
     along = thrusts @ thrusts[sizes.argmax()] / (sizes.max() or 1.0)
     back = -float(along.clip(max=0.0).sum())
     return back if back > _MUCH * along.clip(0.0).sum() else 0.0
+
+
+def _twice(model: Model) -> Iterator[str]:
+    """Return what is asked about fill that the dead load has twice, up to one level on the same faces."""
+    fills = [(factor, term) for factor, term in model.dead.terms if isinstance(term, Fill)]
+    for (a, one), (b, other) in combinations(fills, 2):
+        here = (one.beyond, one.towards) == (other.beyond, other.towards)
+        if here and a * b > 0.0 and abs(one.level - other.level) <= _SAME:
+            blocks = model.free_blocks
+            if both := _faces(one, blocks) & _faces(other, blocks):
+                names = dict.fromkeys(blocks[k].name for k, _ in sorted(both))
+                yield (
+                    f"the dead load has fill up to Z = {coordinate(one.level)} m on {some([*names])} twice, "
+                    f"of {a * one.unit_weight:.4g} and {b * other.unit_weight:.4g} N/m3: one of them?"
+                )
+
+
+def _faces(fill: Fill, blocks: Sequence[Block]) -> set[tuple[int, int]]:
+    return {(k, face) for k, face, weight, _ in fill.on_faces(blocks) if weight}

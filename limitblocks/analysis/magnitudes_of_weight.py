@@ -1,9 +1,8 @@
-"""Slips in the dead load: self weight or fill that is forgotten, or counted twice."""
+"""Slips in the dead load: self weight that is forgotten, or counted twice."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations
 
 import numpy as np
 
@@ -11,16 +10,12 @@ from limitblocks.arrays import Array
 from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.forces import MassProportional, PointForce
 from limitblocks.mechanics.loads.load import Load, some
-from limitblocks.mechanics.loads.surfaces import Fill
 from limitblocks.model import Model
-from limitblocks.shown import coordinate
 
 #: Factor of the self weight beyond which it may be given twice: partial factors are at most 1.5.
 _MOST = 1.5
 #: Share by which forces may differ from the weight of a block that they stand for.
 _CURVED = 0.1
-#: Levels of fill, m, that are nearer are the same: a message shows no more.
-_SAME = 1e-3
 
 
 def of_weights(model: Model) -> Iterator[str]:
@@ -54,21 +49,3 @@ def _by_hand(dead: Load, blocks: Sequence[Block]) -> bool:
 
 def _weights(blocks: Sequence[Block]) -> str:
     return f"{some([block.name for block in blocks])}, {sum(block.weight for block in blocks):.4g} N"
-
-
-def of_fills(model: Model) -> Iterator[str]:
-    """Return what is asked about fill that the dead load has twice, up to one level on the same faces."""
-    fills = [(factor, term) for factor, term in model.dead.terms if isinstance(term, Fill)]
-    for (a, one), (b, other) in combinations(fills, 2):
-        if a * b > 0.0 and abs(one.level - other.level) <= _SAME:
-            blocks = model.free_blocks
-            if both := _faces(one, blocks) & _faces(other, blocks):
-                names = dict.fromkeys(blocks[k].name for k, _ in sorted(both))
-                yield (
-                    f"the dead load has fill up to Z = {coordinate(one.level)} m on {some([*names])} twice, "
-                    f"of {a * one.unit_weight:.4g} and {b * other.unit_weight:.4g} N/m3: one of them?"
-                )
-
-
-def _faces(fill: Fill, blocks: Sequence[Block]) -> set[tuple[int, int]]:
-    return {(k, face) for k, face, weight, _ in fill.on_faces(blocks) if weight}
