@@ -14,7 +14,7 @@ from io import TextIOWrapper
 
 import typer
 
-from limitblocks.cli import bridges, documents, practice, verbs
+from limitblocks.cli import adding, bridges, documents, practice, verbs
 from limitblocks.cli.errors import Verbs
 from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
@@ -94,6 +94,9 @@ app.command()(practice.verify)
 app.command()(practice.adequacy)
 app.command()(bridges.vehicle)
 app.command()(bridges.backfill)
+app.command(cls=Command)(adding.tie)
+app.command(cls=Command)(adding.strip)
+app.command(cls=Command)(adding.dowel)
 app.command()(verbs.check)
 app.command()(documents.info)
 app.command()(documents.report)

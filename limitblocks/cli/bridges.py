@@ -10,7 +10,7 @@ import typer
 from limitblocks.cli import analyses
 from limitblocks.cli.answers import NOTHING, Kept, answer, keeping
 from limitblocks.cli.errors import clean_errors, refuse_existing
-from limitblocks.cli.options import Force, ModelFile
+from limitblocks.cli.options import Force, ModelFile, NewModel
 from limitblocks.cli.vectors import numbers
 
 if TYPE_CHECKING:
@@ -52,9 +52,6 @@ WithVehicle = Annotated[
     ),
 ]
 Weighs = Annotated[bool, typer.Option("--weight", help="Add the weight of the fill to the dead loads, too.")]
-Filled = Annotated[
-    Path, typer.Option("--output", "-o", metavar="MODEL", help="Model file to write.", show_default=False)
-]
 
 
 @keeping
@@ -100,7 +97,7 @@ def backfill(
     level: Surface,
     unit_weight: Weight,
     passive: Coefficient,
-    output: Filled,
+    output: NewModel,
     block: Resisting = None,
     weight: Weighs = False,
     force: Force = False,

@@ -37,6 +37,9 @@ Force = Annotated[bool, typer.Option("--force", help="Replace the output file if
 ResultFile = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="RESULT", help="Also write the result as JSON.")
 ]
+NewModel = Annotated[
+    Path, typer.Option("--output", "-o", metavar="MODEL", help="Model file to write.", show_default=False)
+]
 ReportFile = Annotated[
     Path | None,
     typer.Option(

@@ -6,9 +6,8 @@ from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import shapely
 
-from limitblocks.analysis.anchors import BESIDE, anchors_off
+from limitblocks.analysis.anchors import anchors_off
 from limitblocks.arrays import read_only
 from limitblocks.errors import ModelError, near, refuse_kind
 from limitblocks.geometry import Interface
@@ -19,6 +18,7 @@ from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import force
 from limitblocks.mechanics.loads.load import number, vector
 from limitblocks.model import Model, checked_model
+from limitblocks.practice.places import off_joint
 
 ROUNDED = 1e-9  # of the coordinates of its anchors: the direction of a shorter tie is rounding
 CORNERS = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]) / 2.0
@@ -242,9 +242,7 @@ def _joint_word(interface: Interface, what: str) -> str:
 
 def _across(interface: Interface, at: Sequence[float], side: float, joint: Tie | Dowel, word: str) -> Element:
     point = read_only(np.array(vector(at, f"{word}: at")))
-    x1, x2, out = interface.axes @ (point - interface.centroid)
-    off = float(np.hypot(shapely.distance(shapely.Polygon(interface.polygon), shapely.Point(x1, x2)), out))
-    if off > BESIDE * np.abs(interface.polygon).max():
+    if off := off_joint(interface, point):
         raise ModelError(f"{word}: at is {point.tolist()}, not on the joint, {off:.3g} m off it")
     return Element(
         Interface(

@@ -1,0 +1,132 @@
+"""Commands that add to a model: a tie, a strip or a dowel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from limitblocks.cli.answers import ask
+from limitblocks.cli.errors import clean_errors, refuse_existing
+from limitblocks.cli.options import Force, ModelFile, NewModel
+from limitblocks.cli.vectors import places, vector
+
+if TYPE_CHECKING:
+    from limitblocks.model import Model
+    from limitblocks.practice import Element
+
+Anchors = Annotated[
+    list[Any],
+    places("--anchor", help="A block and the point that holds an end, m; twice.", show_default=False),
+]
+Area = Annotated[float, typer.Option("--area", help="Cross-section of one tie, m2.", show_default=False)]
+Yield = Annotated[
+    float, typer.Option("--strength", help="Yield strength of the material, Pa.", show_default=False)
+]
+PullOut = Annotated[
+    float, typer.Option("--pull-out", help="Largest force that the anchors hold, N, all ties together.")
+]
+Prestress = Annotated[
+    float, typer.Option("--prestress", help="Tension from the beginning, N, a dead load; all ties together.")
+]
+NumberOf = Annotated[int, typer.Option("--number-of", help="Ties side by side.")]
+At = Annotated[Any, vector("--point", names="X,Y,Z", help="Its place on the joint, m.", show_default=False)]
+Across = Annotated[
+    str, typer.Option("--interface", help="The joint, such as 'ground|wall' [default: that at the point].")
+]
+Width = Annotated[float, typer.Option("--width", help="Of the strip, m.", show_default=False)]
+Holds = Annotated[
+    float, typer.Option("--capacity", help="Force at which it breaks or debonds, N.", show_default=False)
+]
+Diameter = Annotated[float, typer.Option("--diameter", help="Of the dowel, m.", show_default=False)]
+Shears = Annotated[
+    float,
+    typer.Option("--capacity", help="Shear force at which it yields or tears out, N.", show_default=False),
+]
+
+
+def tie(
+    model: ModelFile,
+    anchor: Anchors,
+    area: Area,
+    strength: Yield,
+    output: NewModel,
+    pull_out: PullOut = float("inf"),
+    prestress: Prestress = 0.0,
+    number_of: NumberOf = 1,
+    force: Force = False,
+) -> None:
+    """Write the model with a tie between two blocks, such as a wall and the ground.
+
+    An anchor lies in or on its block; that of a support may lie anywhere.
+    """
+
+    def make(_structure: Model) -> Element:
+        from limitblocks.practice import tie
+
+        (block_i, at_i), (block_j, at_j) = anchor
+        settings: Any = {"area": area, "strength": strength, "pull_out": pull_out}
+        settings |= {"prestress": prestress, "number_of": number_of}
+        return tie(block_i, at_i, block_j, at_j, **settings)
+
+    if len(anchor) != 2:
+        raise typer.BadParameter(f"{len(anchor)} given, expected 2", param_hint="--anchor")
+    _reinforce(model, make, output, force)
+
+
+def strip(
+    model: ModelFile,
+    point: At,
+    width: Width,
+    capacity: Holds,
+    output: NewModel,
+    interface: Across = "",
+    force: Force = False,
+) -> None:
+    """Write the model with a bonded strip across a joint, along its normal."""
+
+    def make(structure: Model) -> Element:
+        from limitblocks.practice import strip
+        from limitblocks.practice.places import joint_at
+
+        across = joint_at(structure, point, [interface] if interface else [])
+        return strip(across, point, width=width, capacity=capacity)
+
+    _reinforce(model, make, output, force)
+
+
+def dowel(
+    model: ModelFile,
+    point: At,
+    diameter: Diameter,
+    capacity: Shears,
+    output: NewModel,
+    interface: Across = "",
+    force: Force = False,
+) -> None:
+    """Write the model with a dowel or stitch across a joint, which carries shear."""
+
+    def make(structure: Model) -> Element:
+        from limitblocks.practice import dowel
+        from limitblocks.practice.places import joint_at
+
+        across = joint_at(structure, point, [interface] if interface else [])
+        return dowel(across, point, diameter=diameter, capacity=capacity)
+
+    _reinforce(model, make, output, force)
+
+
+def _reinforce(file: Path, make: Callable[[Model], Element], output: Path, force: bool) -> None:
+    """Write the model in `file` with the element that `make` returns, and ask about what is hardly meant."""
+    with clean_errors():
+        from limitblocks.io import read
+        from limitblocks.practice import reinforced
+
+        refuse_existing(output, force, file)
+        structure = read(file)
+        element = make(structure)
+        made = reinforced(structure, element)
+        ask(made)
+        typer.echo(f"{made.save(output, overwrite=force)}: {made}, with a {element.interface.name}")

@@ -1,0 +1,114 @@
+"""Ties, strips and dowels from the shell: load factors by hand, wrong places and numbers."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+import limitblocks as lb
+from limitblocks import cli
+
+B, H, W, MU = 0.5, 5.0, 50e3, 0.6
+F = 8e3  # N: what a tie, strip or dowel carries
+ENDS = ("--anchor", "block 1", 0, 0, 4.5, "--anchor", "base,-6,0,4.5")
+ROD = ("--area", 1e-4, "--strength", 235e6)
+STRIP = ("--width", 0.1, "--capacity", F)
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, [str(one) for one in arguments])
+
+
+@pytest.fixture
+def wall(tmp_path):
+    """Its heel is at x = 0, its toe at x = B."""
+    joint = lb.PointContact(MU)
+    return lb.structures.block(joint, width=B, height=H).save(tmp_path / "wall.json")
+
+
+def moments(height):
+    return (W * B / 2 + F * height) / (W * H / 2)
+
+
+@pytest.mark.parametrize(
+    ("asked", "expected"),
+    [
+        (("tie", *ENDS, *ROD, "--pull-out", F), moments(4.5)),
+        (
+            ("tie", *ENDS, "--area", 1e-5, "--strength", 2e8, "--number-of", 4, "--prestress", 2e3),
+            moments(4.5),
+        ),
+        (("strip", "--point", 0, 0, 0, *STRIP), moments(B)),
+        (("strip", "--point", "0,0,0", *STRIP, "--interface", "base|block 1"), moments(B)),
+    ],
+)
+def test_what_holds_a_wall_is_in_the_model_written(wall, tmp_path, asked, expected):
+    verb, *options = asked
+    done = run(verb, wall, *options, "-o", tmp_path / "held.json")
+    assert (done.exit_code, done.stderr) == (0, "")
+    assert f"with a {verb} " in done.stdout
+    answer = json.loads(run("bounds", tmp_path / "held.json", "--json").stdout)
+    assert answer["lower"] == pytest.approx(expected, rel=1e-6)
+
+
+def test_a_dowel_holds_a_block_that_slides(tmp_path):
+    low = lb.structures.block(lb.PointContact(0.2), width=5.0, height=0.5).save(tmp_path / "low.json")
+    dowel = ("--point", 2, 0, 0, "--diameter", 0.02, "--capacity", F)
+    assert run("dowel", low, *dowel, "-o", tmp_path / "held.json").exit_code == 0
+    assert lb.bounds(lb.read(tmp_path / "held.json")).upper == pytest.approx(0.2 + F / W, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        (("tie", *ENDS, *ROD, "--strength", 0), "tie block 1|base: strength is 0.0"),
+        (("tie", *ENDS, "--anchor", "base", "0,0,0", *ROD), "3 given, expected 2"),
+        (("tie", "--anchor", "block 2,0,0,4.5", *ENDS[5:], *ROD), "did you mean 'block 1'?"),
+        (("tie", "--anchor", "block 1,-1,0,4.5", *ENDS[5:], *ROD), "1 m off block 'block 1'"),
+        (
+            ("tie", "--anchor", "block 1,0,0", *ENDS[5:], *ROD),
+            "'block 1,0,0': expected a block and 3 numbers",
+        ),
+        (("strip", "--point", 0, 0, 1, *STRIP), "not on the joint, 1 m off it"),
+        (("strip", "--point", 0, 0, 0, *STRIP, "--interface", "block 1|base"), "there are base|block 1"),
+    ],
+)
+def test_what_is_wrong_is_named_and_nothing_written(wall, tmp_path, asked, said):
+    verb, *options = asked
+    done = run(verb, wall, *options, "-o", tmp_path / "held.json")
+    assert done.exit_code == 2
+    assert said in done.stderr
+    assert not (tmp_path / "held.json").exists()
+
+
+def test_a_model_is_replaced_only_if_told_and_slips_are_asked_about(wall, tmp_path):
+    asked = ("tie", wall, *ENDS, "--area", 1e-4, "--strength", 235, "-o", tmp_path / "held.json")
+    assert "235 Pa on its section: MPa, or kN?" in run(*asked).stderr
+    again = run(*asked)
+    assert (again.exit_code, "exists" in again.stderr) == (2, True)
+    assert run(*asked, "--force").exit_code == 0
+    assert "reads or writes, too" in run(*asked[:-1], wall, "--force").stderr
+
+
+def test_a_point_on_two_joints_asks_which(tmp_path):
+    stones = [
+        lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
+        lb.Block.box("left", (1, 1, 1), (-0.5, 0, 0.5), 20e3),
+        lb.Block.box("right", (1, 1, 1), (0.5, 0, 0.5), 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(MU))
+    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    asked = (
+        "strip",
+        model.save(tmp_path / "two.json"),
+        "--point",
+        0,
+        0,
+        0,
+        *STRIP,
+        "-o",
+        tmp_path / "held.json",
+    )
+    assert "on the joints ground|left and ground|right and left|right: say which" in run(*asked).stderr
+    assert run(*asked, "--interface", "left|right").exit_code == 0
+    assert lb.read(tmp_path / "held.json").interfaces[-1].name == "strip left|right"
