@@ -1,4 +1,4 @@
-"""Commands that add to a model: a tie, a strip or a dowel."""
+"""Commands that add to a model: a tie, a strip, a dowel, water in its joints."""
 
 from __future__ import annotations
 
@@ -44,6 +44,18 @@ Diameter = Annotated[float, typer.Option("--diameter", help="Of the dowel, m.", 
 Shears = Annotated[
     float,
     typer.Option("--capacity", help="Shear force at which it yields or tears out, N.", show_default=False),
+]
+Level = Annotated[float, typer.Option("--level", help="Of the water, Z in m.", show_default=False)]
+Wet = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--interface",
+        help="A joint with water, such as 'ground|wall'; again for more [default: all below the level].",
+    ),
+]
+WaterWeight = Annotated[float, typer.Option("--unit-weight", help="Of the water, N/m3.")]
+Share = Annotated[
+    float, typer.Option("--share", help="Of the full pressure, 0 to 1, such as behind a drain.")
 ]
 
 
@@ -116,6 +128,39 @@ def dowel(
         return dowel(across, point, diameter=diameter, capacity=capacity)
 
     _reinforce(model, make, output, force)
+
+
+def uplift(
+    model: ModelFile,
+    level: Level,
+    output: NewModel,
+    interface: Wet = None,
+    unit_weight: WaterWeight = 9810.0,
+    share: Share = 1.0,
+    force: Force = False,
+) -> None:
+    """Write the model with the pressure of water in its joints, a dead load that pushes blocks apart."""
+    with clean_errors():
+        from dataclasses import replace
+
+        from limitblocks.analysis.magnitudes import of_fill
+        from limitblocks.io import read
+        from limitblocks.mechanics.loads import JointPressure
+        from limitblocks.practice import uplift
+        from limitblocks.practice.places import joints_named
+        from limitblocks.shown import many
+
+        refuse_existing(output, force, model)
+        structure = read(model)
+        asked = of_fill(unit_weight)
+        if any(isinstance(term, JointPressure) for _, term in structure.dead.terms):
+            asked.append("the model has water in joints already; this adds to it")
+        wet = joints_named(structure, interface) if interface else None
+        water = uplift(structure, level, interfaces=wet, unit_weight=unit_weight, share=share)
+        made = replace(structure, dead=structure.dead + water)
+        ask(made, *asked)
+        joints = many(len(water.terms), "joint")
+        typer.echo(f"{made.save(output, overwrite=force)}: {made}, with water in {joints}")
 
 
 def _reinforce(file: Path, make: Callable[[Model], Element], output: Path, force: bool) -> None:

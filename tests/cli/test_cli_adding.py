@@ -1,4 +1,4 @@
-"""Ties, strips and dowels from the shell: load factors by hand, wrong places and numbers."""
+"""Ties, strips, dowels and water from the shell: load factors by hand, wrong places and numbers."""
 
 import json
 
@@ -88,6 +88,26 @@ def test_a_model_is_replaced_only_if_told_and_slips_are_asked_about(wall, tmp_pa
     assert (again.exit_code, "exists" in again.stderr) == (2, True)
     assert run(*asked, "--force").exit_code == 0
     assert "reads or writes, too" in run(*asked[:-1], wall, "--force").stderr
+
+
+def test_water_lifts_a_wall(wall, tmp_path):
+    """U = gamma z b through the middle of the base: both moments shrink alike."""
+    asked = ("uplift", wall, "--level", 2, "--share", 0.5, "-o", tmp_path / "wet.json")
+    done = run(*asked, "--interface", "base|block 1")
+    assert (done.exit_code, done.stderr) == (0, "")
+    assert "with water in 1 joint" in done.stdout
+    wet = lb.read(tmp_path / "wet.json")
+    assert lb.bounds(wet).upper == pytest.approx(B / H * (1 - 0.5 * 9810 * 2 * B / W), rel=1e-6)
+    twice = run("uplift", tmp_path / "wet.json", "--level", 2, "-o", tmp_path / "twice.json")
+    assert "has water in joints already" in twice.stderr
+    assert "kN/m3" in run(*asked, "--force", "--unit-weight", 9.81).stderr
+    for wrong, said in (
+        (("--share", 2), "share"),
+        (("--level", -1), "no joint"),
+        (("--interface", "x"), "'x'"),
+    ):
+        refused = run(*asked, "--force", *wrong)
+        assert (refused.exit_code, said in refused.stderr) == (2, True)
 
 
 def test_a_point_on_two_joints_asks_which(tmp_path):
