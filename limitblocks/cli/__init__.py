@@ -85,6 +85,7 @@ def _start(version: Version = False) -> None:
 
 app.command()(verbs.stability)
 app.command()(verbs.bounds)
+app.command()(verbs.sensitivities)
 app.command()(verbs.nonassociated)
 app.command()(verbs.path)
 app.command("range")(verbs.load_factor_range)

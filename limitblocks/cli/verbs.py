@@ -10,12 +10,13 @@ import typer
 from limitblocks.choices import Method, Turning
 from limitblocks.cli import analyses
 from limitblocks.cli.answers import NOTHING, Kept, answer, keeping, show
-from limitblocks.cli.errors import clean_errors
+from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.options import (
     Along,
     AsJson,
     BackwardLimit,
     ClaimFile,
+    CsvFile,
     Dilatancy,
     Exact,
     Mechanisms,
@@ -33,6 +34,8 @@ from limitblocks.errors import CheckFailed, ModelError, few
 
 if TYPE_CHECKING:
     from limitblocks.evidence.check import Check
+    from limitblocks.model import Model
+    from limitblocks.results import Sensitivities
 
 UNJUDGED = ["how answers were reached", "intervals between them", "unlimited load", "wedging", "proven ends"]
 DEFAULT_TOLERANCE, BOUNDS_TOLERANCE = 1e-8, 1e-6  # as in Python
@@ -56,6 +59,31 @@ def bounds(
     """Print the static and the kinematic bound on the associated load factor."""
     with clean_errors():
         answer(analyses.bounds, model, kept, tolerance=tolerance)
+
+
+@keeping
+def sensitivities(
+    model: ModelFile,
+    tolerance: Tolerance = BOUNDS_TOLERANCE,
+    csv: CsvFile = None,
+    kept: Kept = NOTHING,
+) -> None:
+    """Print the friction and the unit weights that govern the associated load factor, the largest first."""
+    beside: list[Any] = []
+
+    def solve(structure: Model, **settings: Any) -> Sensitivities:
+        from limitblocks.analysis.sensitivities import sensitivities
+
+        beside.append(analyses.bounds(structure, **settings))
+        return sensitivities(structure, beside[0])
+
+    with clean_errors():
+        refuse_existing(csv, kept.force, model, kept.output, kept.filed, option="--csv")
+        found = answer(solve, model, kept, beside, tolerance=tolerance)
+        if csv:
+            from limitblocks.studies.rows import write_csv
+
+            write_csv(found.rows(), csv, overwrite=kept.force)
 
 
 @keeping

@@ -41,11 +41,16 @@ class Rows(Saved):
         LimitBlocksError
             If the file exists and `overwrite` is false, or it cannot be written.
         """
-        rows, stream = self.rows(), io.StringIO(newline="")
-        writer = csv.DictWriter(stream, list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)
-        return write(Path(file), stream.getvalue(), overwrite)
+        return write_csv(self.rows(), file, overwrite=overwrite)
+
+
+def write_csv(rows: list[dict[str, Any]], file: str | Path, *, overwrite: bool = False) -> Path:
+    """Write rows of the same keys to a CSV file and return its path; see :meth:`Rows.write_csv`."""
+    stream = io.StringIO(newline="")
+    writer = csv.DictWriter(stream, list(rows[0]))
+    writer.writeheader()
+    writer.writerows(rows)
+    return write(Path(file), stream.getvalue(), overwrite)
 
 
 def in_short(value: Any) -> str:
