@@ -104,6 +104,11 @@ def test_blocks_that_carry_nothing_are_named_where_increments_fail():
     assert any(note.startswith("nothing acts on light 0, light 1, and") for note in failed.value.__notes__)
 
 
+def test_what_leads_off_the_load_path_is_named():
+    found = lb.nonassociated(model_of(stones(2), ["ground"], lb.PointContact(0.6)))
+    assert any(remark.startswith("nothing acts on light 0, light 1, and") for remark in found.remarks)
+
+
 @pytest.mark.parametrize("force", [0.0, 1e-8])
 def test_a_force_on_a_block_that_nothing_loads_is_no_rounding(force):
     model = model_of(stones(1), ["ground"], lb.OrdunaLourenco(0.6))
