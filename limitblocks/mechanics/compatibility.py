@@ -7,6 +7,10 @@ from scipy import sparse
 
 from limitblocks.arrays import Array, Indices
 
+# Of a direction cosine: where joints without friction are level but for rounding, an equation of nothing but
+# rounding would leave no normal force.
+ROUNDING = 1e-12
+
 
 def compatibility_matrix(
     axes: Array, at_i: Array, at_j: Array, block_i: Indices, block_j: Indices, n_blocks: int
@@ -42,6 +46,7 @@ def compatibility_matrix(
 
 def _rigid_body(axes: Array, at: Array) -> Array:
     """Local strain rates (m, 6, 6) at the points `at` per displacement rate of a block: du + w x r."""
+    axes = np.where(np.abs(axes) > ROUNDING, axes, 0.0)
     cross = np.zeros((len(axes), 3, 3))  # cross @ w = w x r
     x, y, z = at.T
     cross[:, 0, 1], cross[:, 0, 2] = z, -y
