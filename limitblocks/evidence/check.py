@@ -9,6 +9,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import CheckFailed, ModelError
+from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.backward_error import BackwardError, backward_error, checked_limit, far_off, within
 from limitblocks.evidence.claim import Claim, claim_of, real_number
 from limitblocks.evidence.crushing import beyond_stress_block
@@ -184,6 +185,8 @@ def _of_bounds(flow: Flow, claim: Claim, state: State, upper: float) -> Residual
     dead = claim.dead_load_stresses
     proof = proof_of(problem, problem.in_si(state), state.x * problem.stress_units if dead is None else dead)
     beyond = max(claim.load_factor - proof.lower, proof.upper - upper)
+    if isinstance(claim, Bounds):
+        beyond = max(beyond, claim.proof.lower - proof.lower, proof.upper - claim.proof.upper)
     said = proof.static or proof.kinematic or f"proven are {proof.lower:.17g} and {proof.upper:.17g}"
     proven = Residual("proof", np.inf if beyond > 0.0 else 0.0, f"bounds that are theorems; {said}")
     return Residuals((*judged.entries, proven))

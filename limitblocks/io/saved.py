@@ -96,6 +96,11 @@ def path_of(kind: type[LoadPath], data: Mapping[str, Any]) -> LoadPath:
 def range_of(kind: type[LoadFactorRange], data: Mapping[str, Any]) -> LoadFactorRange:
     """A range, which names the answer of the load path by its place."""
     found: LoadFactorRange = made(kind, {**data, "load_path": None})
+    for key in ("frictionless", "associated", "dilatancy", "turning"):
+        for solution in (one.solution for one in found.answers):
+            if str(getattr(solution, key)) != str(getattr(found, key)):
+                said = f"{key} is {getattr(found, key)!r}"
+                raise ModelError(f"{said}, but {getattr(solution, key)!r} of an answer")
     place = data["load_path_place"]
     return found if place is None else replace(found, load_path=found.answers[_place(place)])
 
