@@ -35,7 +35,7 @@ _CANDIDATES = {"cm": 0.01, "mm": 0.001}  # metres per unit
 _MOST_PAIRS = 1_000_000  # of blocks one above the other, of which a share is looked at beyond
 _FEWEST = 4  # blocks that tell which way is up where no support is named
 _ALL, _MOST, _HALF = 0.98, 0.9, 0.5
-_LOWER = 0.49  # of the height: the middle of a support as long as the structure is above
+_LOWER, _UPPER = 0.49, 0.51  # of the height: between is the middle of a support as long as the structure
 
 
 class Boxes(NamedTuple):
@@ -148,8 +148,15 @@ def on_side(blocks: Sequence[Block], supports: Sequence[str]) -> list[str]:
 
 
 def _on_side(boxes: Boxes, a: int, b: int) -> bool:
-    """Return whether the supports are at the bottom along the axis `b`, and not along `a`."""
-    return bool(boxes.support.any()) and _at_bottom(boxes, b) and not _at_bottom(boxes, a, _LOWER)
+    """Return whether the supports are at the bottom along the axis `b`, and not along `a`.
+
+    Those as high as the structure, and those of few blocks, may be a wall that stones jut out of: only if
+    all stand on each other along `a` as well do they tell.
+    """
+    if not boxes.support.any() or not _at_bottom(boxes, b) or _at_bottom(boxes, a, _LOWER):
+        return False
+    told = len(boxes.low) >= _FEWEST and not _at_bottom(boxes, a, _UPPER)
+    return told or _shares(boxes, a)[1] >= _ALL
 
 
 def _at_bottom(boxes: Boxes, axis: int, share: float = 1.0 / 3.0) -> bool:

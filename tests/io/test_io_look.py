@@ -100,6 +100,17 @@ def test_supports_as_long_as_a_vault_and_few_blocks_tell_the_axis_up(name, said,
         assert ("seems to lie on its side: the supports are at the bottom along Y" in caplog.text) == asked
 
 
+@pytest.mark.parametrize("low", [[0.8], [2.0, 2.3]])
+def test_stones_that_jut_out_of_a_wall_have_z_up(low, tmp_path, caplog):
+    """Nothing is below the lowest of them, also where the wall is as high as all."""
+    stones = [lb.Block.box(f"s{k}", (1.0, 1.2, 0.3), (0.5, 0.9, z + 0.15)) for k, z in enumerate(low)]
+    wall = lb.Block.box("support", (1.0, 0.3, 3.0), (0.5, 0.15, 1.5))
+    file = lb.files.write_blocks([wall, *stones], tmp_path / "bracket.obj")
+    assert lb.files.read_blocks(file).guesses == ()
+    lb.read(file, joint=JOINT, unit_weight=20e3, live=LIVE, supports=["support"])
+    assert "lie on its side" not in caplog.text
+
+
 def test_a_format_that_says_its_axis_is_believed_with_a_question(tmp_path):
     """A wall written with Z up into glTF, whose standard is Y up, lies on its back."""
     blocks = [block.moved(Y_UP.T, (0.0, 0.0, 0.0)) for block in plain(EXAMPLES["wall"](JOINT))]
