@@ -12,9 +12,9 @@ from limitblocks.mechanics.loads.forces import MassProportional, PointForce
 from limitblocks.mechanics.loads.load import Load, some
 from limitblocks.model import Model
 
-#: Factor of the self weight beyond which it may be given twice: partial factors are at most 1.5.
-_MOST = 1.5
-#: Share by which forces may differ from the weight of a block that they stand for.
+#: Least and greatest partial factor; beyond the greatest, the self weight may be given twice.
+_LEAST, _MOST = 0.9, 1.5
+#: Share by which forces may differ from the weight of a block that they stand for, beside a partial factor.
 _CURVED = 0.1
 
 
@@ -44,7 +44,8 @@ def _by_hand(dead: Load, blocks: Sequence[Block]) -> bool:
     for factor, term in dead.terms:
         if isinstance(term, PointForce) and term.block in down:
             down[term.block] -= factor * term.force[2]
-    return any(abs(down[block.name] - block.weight) <= _CURVED * block.weight for block in blocks)
+    least, most = _LEAST * (1.0 - _CURVED), _MOST * (1.0 + _CURVED)
+    return any(least <= down[block.name] / block.weight <= most for block in blocks)
 
 
 def _weights(blocks: Sequence[Block]) -> str:

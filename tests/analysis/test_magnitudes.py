@@ -383,6 +383,18 @@ def test_weights_given_as_forces_are_not_forgotten_where_one_is_left_out():
     assert questions(replace(model, dead=weight)) == []
 
 
+@pytest.mark.parametrize(
+    ("factor", "lacks"),
+    [(0.01, True), (0.5, True), (0.9, False), (1.0, False), (1.35, False), (1.5, False), (2.0, True)],
+)
+def test_weights_given_as_forces_with_a_partial_factor_are_not_forgotten(factor, lacks):
+    model = block()
+    (own,) = model.free_blocks
+    weight = factor * lb.loads.force(own.name, (0, 0, -own.weight), own.centroid.tolist())
+    asked = questions(replace(model, dead=weight))
+    assert any("lacks the weight" in one for one in asked) == lacks
+
+
 def test_self_weight_that_the_load_factor_multiplies_is_not_forgotten():
     held = lb.loads.force("block 1", (5e3, 0, 0), (0, 0, 0.5))
     assert questions(replace(block(), dead=held, live=lb.mass_proportional((0, 0, -1)))) == []
