@@ -21,6 +21,8 @@ from limitblocks.shown import coordinates
 _SOFT = 1e6
 #: Section of a tie, m2, above which it may be in mm2: 0.25 m across.
 _THICK = 5e-2
+#: Width of a strip or dowel, m, above which it may be in mm.
+_WIDE = 4.0
 #: Share of a prestress by which the dead loads may differ by rounding, and distance of its place there, m.
 _OTHER, _BESIDE = 1e-6, 1e-6
 
@@ -35,8 +37,13 @@ def of_ties(model: Model) -> Iterator[str]:
 
 
 def _of_sections(model: Model) -> Iterator[str]:
-    """What is asked about the sections of ties and what they carry."""
+    """What is asked about the sections of ties and what they carry, and the widths of strips and dowels."""
     for tie in model.interfaces:
+        bonded = isinstance(tie.joint, Tie) and not tie.joint.length
+        if bonded or (isinstance(tie.joint, Dowel) and not isinstance(tie.joint, Backfill)):
+            width = float(np.sqrt(areas(tie.polygon)))
+            if width > _WIDE:
+                yield f"{tie.name}: it is {width:.4g} m wide: mm? {width:.4g} mm = {width / 1e3:.4g} m"
         if isinstance(tie.joint, Tie) and tie.joint.length:
             section, strength = float(areas(tie.polygon)), tie.joint.strength
             if section > _THICK:

@@ -275,6 +275,21 @@ def test_a_tie_given_twice_is_asked_about(off, number, turned):
     assert all("given twice? they add up" in one for one in said)
 
 
+@pytest.mark.parametrize(("width", "asked"), [(0.1, 0), (8.0, 1), (100.0, 1)])
+def test_strips_and_dowels_in_millimetres_are_asked_about(width, asked):
+    model = block()
+    (joint,) = model.interfaces
+    at = joint.centroid.tolist()
+    for made in (
+        strip(joint, at, width=width, capacity=5e3),
+        dowel(joint, at, diameter=width, capacity=5e3),
+    ):
+        said = questions(reinforced(model, made))
+        assert [
+            f"it is {width:.4g} m wide: mm? {width:.4g} mm = {width / 1e3:.4g} m" in one for one in said
+        ] == [True] * asked
+
+
 def prestressed():
     bar = {"area": 314e-6, "strength": 235e6}
     ends = ("block 1", (0.0, 0.0, 0.9), "base", (-3.0, 0.0, 0.9))
