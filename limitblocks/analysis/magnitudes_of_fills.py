@@ -15,7 +15,7 @@ from limitblocks.mechanics.loads.load import some
 from limitblocks.model import Model
 from limitblocks.shown import coordinate
 
-#: Levels of fill, m, that are nearer are the same: a message shows no more.
+#: Levels and ends of fill, m, that are nearer are the same: a message shows no more.
 _SAME = 1e-3
 #: Share of the thrust on one side of a block that is asked about where as much acts on the other one.
 _MUCH = 0.1
@@ -68,8 +68,7 @@ def _twice(model: Model) -> Iterator[str]:
     """Return what is asked about fill that the dead load has twice, up to one level on the same faces."""
     fills = [(factor, term) for factor, term in model.dead.terms if isinstance(term, Fill)]
     for (a, one), (b, other) in combinations(fills, 2):
-        here = (one.beyond, one.towards) == (other.beyond, other.towards)
-        if here and a * b > 0.0 and abs(one.level - other.level) <= _SAME:
+        if _one_side(one, other) and a * b > 0.0 and abs(one.level - other.level) <= _SAME:
             blocks = model.free_blocks
             if both := _faces(one, blocks) & _faces(other, blocks):
                 names = dict.fromkeys(blocks[k].name for k, _ in sorted(both))
@@ -77,6 +76,14 @@ def _twice(model: Model) -> Iterator[str]:
                     f"the dead load has fill up to Z = {coordinate(one.level)} m on {some([*names])} twice, "
                     f"of {a * one.unit_weight:.4g} and {b * other.unit_weight:.4g} N/m3: one of them?"
                 )
+
+
+def _one_side(one: Fill, other: Fill) -> bool:
+    """Return whether both end nowhere, or at one plane and towards the same side."""
+    if not (one.beyond and one.towards and other.beyond and other.towards):
+        return one.beyond == other.beyond
+    between = np.subtract(other.beyond, one.beyond) @ one.towards[:2]
+    return bool(abs(between) <= _SAME and np.allclose(one.towards, other.towards, rtol=0.0, atol=_SAME))
 
 
 def _faces(fill: Fill, blocks: Sequence[Block]) -> set[tuple[int, int]]:

@@ -101,6 +101,21 @@ def test_fill_on_both_sides_of_a_wall_is_asked_about(batter):
         )
 
 
+@pytest.mark.parametrize(
+    ("beyond", "towards", "asked"),
+    [((0.25, 7), (2, 0, 0), 1), ((0.3, 0), (1, 0, 0), 0), ((0.25, 0), (-1, 0, 0), 0), (None, None, 0)],
+)
+def test_fill_twice_beyond_one_plane_is_asked_about_wherever_on_it_its_place_is(beyond, towards, asked):
+    """On a block from x = 0 to .5 m."""
+    model = block()
+    fills = (
+        lb.loads.fill(18e3, 2.0, beyond=at, towards=to)
+        for at, to in (((0.25, 0), (1, 0, 0)), (beyond, towards))
+    )
+    said = questions(replace(model, dead=sum(fills, model.dead)))
+    assert ["twice" in one for one in said] == [True] * asked
+
+
 @pytest.mark.parametrize("name", ["arch", "arch, five facets", "dome", "two spans"])
 def test_fill_over_a_vault_is_on_both_sides_of_it(name):
     joint, ring = lb.PointContact(0.6), {"thickness": 0.3, "voussoirs": 5}
