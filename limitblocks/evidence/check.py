@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,7 +10,6 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import CheckFailed, ModelError
-from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.backward_error import BackwardError, backward_error, checked_limit, far_off, within
 from limitblocks.evidence.claim import Claim, claim_of, real_number
 from limitblocks.evidence.crushing import beyond_stress_block
@@ -19,7 +19,7 @@ from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.locked_tension import locked_tension
 from limitblocks.evidence.mechanism import find_mechanism
 from limitblocks.evidence.other_convention import other_convention
-from limitblocks.evidence.proof import proof_of
+from limitblocks.evidence.proof import Proof, proof_of
 from limitblocks.evidence.residuals import (
     OF_BOUNDS,
     TOLERANCE,
@@ -155,7 +155,16 @@ def check_mcp(model: Model, result: Any, *, tolerance: Any = None, backward_erro
     claim = claim_of(model, result)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # undefined residuals are infinite
         steps = (steps_residual(model, result),) if isinstance(result, LoadPath) else ()
-        return _checked(model, claim, least, limit, steps)
+        return _checked(model, claim, least, limit, (*steps, *_told(result)))
+
+
+def _told(result: Any) -> Iterator[Residual]:
+    """What a proof says beyond its bounds, which are judged."""
+    proof = getattr(result, "proof", None)
+    if not isinstance(proof, Proof) or not proof.complete:
+        return
+    if proof.lower > result.lower or proof.upper < result.upper:
+        yield Residual("proof told", np.inf, f"what is told of the bounds is no more than they are; {proof}")
 
 
 def _checked(
@@ -185,8 +194,6 @@ def _of_bounds(flow: Flow, claim: Claim, state: State, upper: float) -> Residual
     dead = claim.dead_load_stresses
     proof = proof_of(problem, problem.in_si(state), state.x * problem.stress_units if dead is None else dead)
     beyond = max(claim.load_factor - proof.lower, proof.upper - upper)
-    if isinstance(claim, Bounds):
-        beyond = max(beyond, claim.proof.lower - proof.lower, proof.upper - claim.proof.upper)
     said = proof.static or proof.kinematic or f"proven are {proof.lower:.17g} and {proof.upper:.17g}"
     proven = Residual("proof", np.inf if beyond > 0.0 else 0.0, f"bounds that are theorems; {said}")
     return Residuals((*judged.entries, proven))
