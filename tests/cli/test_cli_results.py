@@ -71,6 +71,8 @@ def test_bounds_are_checked_with_associated_flow(file, tmp_path):
     done = run("check", file, output)
     assert (done.exit_code, done.stderr) == (0, "")
     changed(output, lower=lambda lower: 1.001 * lower)
+    assert run("check", file, output).exit_code == 2  # its proof says otherwise
+    changed(output, proof=lambda proof: proof | {"lower": 1.001 * proof["lower"]})
     assert run("check", file, output).exit_code == 1
 
 
