@@ -11,7 +11,6 @@ from scipy import sparse
 
 from limitblocks.analysis.falling import Fall, falling
 from limitblocks.analysis.forms import Stresses
-from limitblocks.analysis.idle import idle_words
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.one_thread import one_thread
@@ -85,10 +84,7 @@ def _slides_through(problem: LimitProblem, weights: Array) -> Fall:
     alone = replace(problem, C=sparse.csr_array(problem.C @ free), dead=np.asarray(free @ problem.dead))
     fall = falling(Flow(alone), alone.dead)
     if fall is None:
-        error = SolverFailure("blocks that nobody wedges move, but no mechanism of them was found")
-        for note in idle_words(problem):
-            error.add_note(note)
-        raise error
+        raise SolverFailure("blocks that nobody wedges move, but no mechanism of them was found")
     return fall
 
 

@@ -98,15 +98,9 @@ def strip(
     force: Force = False,
 ) -> None:
     """Write the model with a bonded strip across a joint, along its normal."""
+    from limitblocks.practice import strip
 
-    def make(structure: Model) -> Element:
-        from limitblocks.practice import strip
-        from limitblocks.practice.places import joint_at
-
-        across = joint_at(structure, point, [interface] if interface else [])
-        return strip(across, point, width=width, capacity=capacity)
-
-    _reinforce(model, make, output, force)
+    _reinforce(model, _across(strip, point, interface, width=width, capacity=capacity), output, force)
 
 
 def dowel(
@@ -119,15 +113,9 @@ def dowel(
     force: Force = False,
 ) -> None:
     """Write the model with a dowel or stitch across a joint, which carries shear."""
+    from limitblocks.practice import dowel
 
-    def make(structure: Model) -> Element:
-        from limitblocks.practice import dowel
-        from limitblocks.practice.places import joint_at
-
-        across = joint_at(structure, point, [interface] if interface else [])
-        return dowel(across, point, diameter=diameter, capacity=capacity)
-
-    _reinforce(model, make, output, force)
+    _reinforce(model, _across(dowel, point, interface, diameter=diameter, capacity=capacity), output, force)
 
 
 def uplift(
@@ -161,6 +149,19 @@ def uplift(
         ask(made, *asked)
         joints = many(len(water.terms), "joint")
         typer.echo(f"{made.save(output, overwrite=force)}: {made}, with water in {joints}")
+
+
+def _across(
+    element: Callable[..., Element], point: Any, interface: str, **settings: float
+) -> Callable[[Model], Element]:
+    """Return what makes an element across the joint of a name, or at a point."""
+
+    def make(structure: Model) -> Element:
+        from limitblocks.practice.places import joint_at
+
+        return element(joint_at(structure, point, [interface] if interface else []), point, **settings)
+
+    return make
 
 
 def _reinforce(file: Path, make: Callable[[Model], Element], output: Path, force: bool) -> None:

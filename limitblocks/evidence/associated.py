@@ -119,13 +119,11 @@ class Bounds(Result):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers, lists and text."""
-        told = (
-            {"lower": self.lower, "upper": self.upper} if self.proven else {}
-        )  # what is proven are the bounds
+        told = {"lower": self.lower, "upper": self.upper} if self.proven else {}
         return {
             "analysis": "bounds",
             **kept(self, "lower", "upper", "gap", "worth", "proven", "residuals"),
-            "proof": self.proof.to_dict() | told,
+            "proof": self.proof.to_dict() | told,  # what is proven are the bounds
             "residual_details": self.residuals.details(),
             **kept(self, "tolerance", "remarks", "solvers", *ARRAYS, "digest"),
         }

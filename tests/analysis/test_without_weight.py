@@ -2,10 +2,13 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from stones import model_of, portal_stones
 
 import limitblocks as lb
+from limitblocks.analysis.falling import falling
+from limitblocks.problem import Flow
 
 FT, DEPTH, WIDTH, HEIGHT, PUSH = 1e5, 0.5, 1.0, 2.0, 1e3  # tension, Pa; legs, m; live load, N
 GLUED = lb.OrdunaLourenco(0.6, cohesion=1e5, tensile_strength=FT)
@@ -118,3 +121,9 @@ def test_a_force_on_a_block_that_nothing_loads_is_no_rounding(force):
     stresses[light, 2] -= force * 1e4  # N, of the 10 kN of the stone below
     claim = lb.results.Claim(found.load_factor, stresses, dilatancy=float("inf"))
     assert lb.check_mcp(model, claim, tolerance=1e-6).passed == (force == 0.0)
+
+
+def test_nothing_falls_where_no_loads_act():
+    problem = model_of(stones(0), ["ground"], lb.PointContact(0.6)).problem
+    with np.errstate(all="raise"):
+        assert falling(Flow(problem), np.zeros_like(problem.dead)) is None
