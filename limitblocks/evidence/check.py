@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -31,7 +31,7 @@ from limitblocks.evidence.residuals import (
     static_residuals,
 )
 from limitblocks.evidence.standing import standing_state
-from limitblocks.evidence.steps import steps_residual
+from limitblocks.evidence.steps import UNJUDGED, steps_residual
 from limitblocks.model import Model, checked_model
 from limitblocks.problem import Flow, LimitProblem, State, turning_of
 from limitblocks.shown import Result, kept
@@ -154,8 +154,10 @@ def check_mcp(model: Model, result: Any, *, tolerance: Any = None, backward_erro
     limit = checked_limit(backward_error)
     claim = claim_of(model, result)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # undefined residuals are infinite
-        steps = (steps_residual(model, result),) if isinstance(result, LoadPath) else ()
-        return _checked(model, claim, least, limit, (*steps, *_told(result)))
+        if not isinstance(result, LoadPath):
+            return _checked(model, claim, least, limit, tuple(_told(result)))
+        found = _checked(model, claim, least, limit, (steps_residual(model, result),))
+        return replace(found, remarks=(*found.remarks, UNJUDGED))
 
 
 def _told(result: Any) -> Iterator[Residual]:

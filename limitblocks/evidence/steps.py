@@ -10,6 +10,8 @@ from limitblocks.evidence.load_path_result import LoadPath, PathStep
 from limitblocks.evidence.residuals import Residual, static_residuals
 from limitblocks.model import Model
 
+#: What of a load path no residual judges.
+UNJUDGED = "of the steps equilibrium was judged, not yield or displacements, nor the trace of the path"
 _ROUNDING = 1e-15  # to which inner forces that give the stress resultants are found
 
 

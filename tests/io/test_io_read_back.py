@@ -240,3 +240,13 @@ def test_result_of_another_model_is_refused(tmp_path):
             lb.read_result(file, other)
         with pytest.raises(lb.ModelError, match=r"limitblocks 0\.0\.9, this .*: analyse it again$"):
             lb.read_result(changed(file, versions={"limitblocks": "0.0.9"}), other)
+
+
+@pytest.mark.parametrize("version", [2, True, "1", None])
+@pytest.mark.parametrize("kind", ["range", "stability"])
+def test_results_of_another_version_are_refused(kind, version, tmp_path):
+    file = SAVED[kind].save(tmp_path / "result.json")
+    said = json.loads(file.read_text(encoding="utf-8"))
+    file.write_text(json.dumps(said | {"schema_version": version}), encoding="utf-8")
+    with pytest.raises(lb.ModelError, match=f"schema_version: expected 1, not {version!r}"):
+        lb.read_result(file)
