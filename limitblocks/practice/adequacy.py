@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from math import inf, isfinite
 from typing import Any
 
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
-from limitblocks.errors import ModelError, NoEquilibrium, SolveError, refuse_kind
+from limitblocks.errors import ModelError, NoEquilibrium, SolveError, UnlimitedLoad, refuse_kind
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry.polygon import areas
@@ -50,12 +51,12 @@ class Adequacy(Result):
     factors : PartialFactors
     values : tuple of DesignValue
         Everything that was factored.
-    characteristic : Bounds
-        Associated load factor of the model as given.
+    characteristic : Bounds or None
+        Associated load factor of the model as given; None where it is without limit.
     model : Model
         The design model: its loads and joints have their design values.
-    bounds : Bounds
-        Of the design model, associated.
+    bounds : Bounds or None
+        Of the design model, associated; None where it is without limit.
     result : Nonassociated or None
         Of the design model, without dilatancy; None where it was not asked for.
     characteristic_result : Nonassociated or None
@@ -66,9 +67,9 @@ class Adequacy(Result):
 
     factors: PartialFactors
     values: tuple[DesignValue, ...]
-    characteristic: Bounds
+    characteristic: Bounds | None
     model: Model
-    bounds: Bounds
+    bounds: Bounds | None
     result: Nonassociated | None
     characteristic_result: Nonassociated | None
     digest: str
@@ -80,7 +81,7 @@ class Adequacy(Result):
 
     @property
     def characteristic_factor(self) -> float:
-        """Load factor of the model as given: without dilatancy where that has an answer."""
+        """Load factor of the model as given: without dilatancy where that has an answer; may be infinite."""
         return _factor(self.characteristic_result, self.characteristic)
 
     @property
@@ -91,7 +92,14 @@ class Adequacy(Result):
     @property
     def remarks(self) -> tuple[str, ...]:
         """What to know of the answer that the factor is of."""
-        return (self.result or self.bounds).remarks
+        return self.answer.remarks
+
+    @property
+    def answer(self) -> Nonassociated | Bounds:
+        """The result that the factor is of."""
+        found = self.result or self.bounds
+        assert found is not None  # one of them is made
+        return found
 
     def rows(self) -> list[dict[str, Any]]:
         """Return a row for each value that was factored."""
@@ -109,13 +117,17 @@ class Adequacy(Result):
 
     def __str__(self) -> str:
         least = "at least one" if self.satisfied else "LESS than one"
-        given = f"{self.characteristic_factor:.6g}, {_flow(self.characteristic_result)}"
+        size = self.characteristic_factor
+        number = f"{size:.6g}" if isfinite(size) else "without limit"
+        given = f"{number}, {_flow(self.characteristic_result)}"
         found = f"adequacy factor {self.factor:.6g} ({_flow(self.result)}), {least}"
         return self._line(found, f"characteristic load factor {given}", *self.remarks)
 
 
-def _factor(result: Nonassociated | None, pair: Bounds) -> float:
-    return float(result.load_factor if result else pair.lower)
+def _factor(result: Nonassociated | None, pair: Bounds | None) -> float:
+    if result:
+        return float(result.load_factor)
+    return float(pair.lower) if pair else inf
 
 
 def _flow(result: Nonassociated | None) -> str:
@@ -142,13 +154,15 @@ def adequacy(model: Model, factors: PartialFactors, *, without_dilatancy: bool =
     ModelError
         If a joint has no friction or strength that could be factored, or a model with ties, dowels or passive
         fill no `gamma_S`.
+    UnlimitedLoad
+        If the load factor of the design model is without limit, by the flow rule that was asked for.
     LimitBlocksError
         As :func:`~limitblocks.bounds` and :func:`~limitblocks.nonassociated`.
     """
     design = design_model(model, factors)
     values = tuple(_values(model, factors))
     try:
-        pair = bounds(design)
+        pair = _limited(design) if without_dilatancy else bounds(design)
     except NoEquilibrium as error:
         raise NoEquilibrium(error.blocks, error.left_out, "with design values the dead loads alone") from None
     result = given = nonassociated(design) if without_dilatancy else None
@@ -157,7 +171,15 @@ def adequacy(model: Model, factors: PartialFactors, *, without_dilatancy: bool =
             given = nonassociated(model)
         except SolveError:  # the adequacy factor does not depend on it
             given = None
-    return Adequacy(factors, values, bounds(model), design, pair, result, given, model.digest)
+    return Adequacy(factors, values, _limited(model), design, pair, result, given, model.digest)
+
+
+def _limited(model: Model) -> Bounds | None:
+    """The bounds of a model; None where dilatancy lets the load grow without limit."""
+    try:
+        return bounds(model)
+    except UnlimitedLoad:
+        return None
 
 
 def design_model(model: Model, factors: PartialFactors) -> Model:

@@ -27,8 +27,9 @@ from limitblocks.practice.freed import as_before, other_supports, pressed
 from limitblocks.shown import Result, kept
 
 JAMMED = (
-    "settlement of {!r}: the structure jams against this motion, so that its reaction has no limit; check "
-    "the direction, which is that in which the ground moves, such as 0,0,-1 for one that sinks"
+    "settlement of {!r}: with dilatancy its reaction has no limit: the structure jams against this motion, or "
+    "stones between this support and another press against both, however hard; check the direction, which is "
+    "that in which the ground moves, such as 0,0,-1 for one that sinks, and what else holds those stones"
 )
 OFF = 1e-6  # of the motion along the line: more than rounding
 RIGID = 1e3  # strength of the guide over the weight of the structure
@@ -157,7 +158,8 @@ def settlement(
     NoEquilibrium
         If the dead loads cannot stand.
     UnlimitedLoad
-        If the reaction can change without limit: blocks jam against the motion.
+        If the reaction can change without limit: blocks jam against the motion, or are propped between this
+        support and another.
     SolverFailure, NotConverged
         As :func:`~limitblocks.bounds` and :func:`~limitblocks.nonassociated`.
 

@@ -20,7 +20,7 @@ FACTORED = (
 
 def adequacy_section(_model: Model, found: Adequacy) -> Section:
     """Return the section of a load factor with partial factors."""
-    end = found.result or found.bounds
+    end = found.answer
     real = [
         (word, figures(one.load_factor, 7), of)
         for word, one, of in (
@@ -43,16 +43,21 @@ def adequacy_section(_model: Model, found: Adequacy) -> Section:
         headline=rounded_down(found.factor),
         quantity=f"adequacy factor, {'at least one' if found.satisfied else 'LESS than one'}",
         values=(
-            ("Characteristic load factor", at_least(found.characteristic.lower), "associated, as given"),
-            ("Design load factor, static", at_least(found.bounds.lower), "associated, of the design model"),
-            (
-                "Design load factor, kinematic",
-                at_most(found.bounds.upper),
-                "associated, of the design model",
-            ),
+            *_associated(found),
             *real,
         ),
         judged=(end.residuals, end.tolerance),
         warnings=found.remarks,
         parts=(Table.of("Characteristic and design values", heads, rows, right=(2, 4, 5)),),
     )
+
+
+def _associated(found: Adequacy) -> list[tuple[str, str, str]]:
+    """Load factors of associated flow, each with what it is of."""
+    given, design, of = found.characteristic, found.bounds, "associated, of the design model"
+    word = at_least(given.lower) if given else "without limit"
+    rows = [("Characteristic load factor", word, "associated, as given")]
+    if design is None:
+        return [*rows, ("Design load factor", "without limit", of)]
+    rows += [("Design load factor, static", at_least(design.lower), of)]
+    return [*rows, ("Design load factor, kinematic", at_most(design.upper), of)]

@@ -3,6 +3,7 @@
 import json
 from dataclasses import dataclass, replace
 
+import numpy as np
 import pytest
 from stones import model_of
 from typer.testing import CliRunner
@@ -205,6 +206,43 @@ def test_the_characteristic_load_factor_is_of_the_same_flow_rule(monkeypatch):
 
     monkeypatch.setitem(adequacy.__globals__, "nonassociated", lost)
     assert "characteristic load factor 0.403694, associated" in str(adequacy(model, doubled.factors))
+
+
+def pressed_down():
+    """A squat block whose live load presses it down: with mu = .6 and dilatancy no load moves it."""
+    stones = [
+        lb.Block.box("ground", (30.0, 1.0, 0.4), (0, 0, -0.2)),
+        lb.Block.box("wall", (2.0, 1.0, 0.2), (0, 0, 0.1), 20e3),
+    ]
+    live = lb.mass_proportional((0.55, 0.0, -1.0))
+    joints = lb.find_interfaces(stones, lb.PointContact(0.6))
+    return lb.Model(stones, ["ground"], joints, lb.self_weight(), live)
+
+
+def test_a_load_without_limit_has_one_with_design_friction():
+    """gamma_Q alpha .55 W = (mu / gamma_M) (W + gamma_Q alpha W), of a direction of length one."""
+    found = adequacy(pressed_down(), PartialFactors(1.0, Q, 2.0))
+    assert found.factor == pytest.approx(np.hypot(0.55, 1.0) * 0.3 / (Q * (0.55 - 0.3)), rel=1e-8)
+    assert found.characteristic is None
+    assert found.characteristic_factor == np.inf
+    assert "characteristic load factor without limit, associated" in str(found)
+    text = lb.report(pressed_down(), found).text
+    assert "without limit" in text
+    assert "LESS than one" in text
+    assert json.loads(json.dumps(found.to_dict()))["characteristic"] is None
+
+
+def test_dilatancy_without_limit_does_not_hide_the_answer_without_it():
+    """A stone between walls 25 degrees off the push, mu = .7 > tan 25: no dilatancy, no wedging."""
+    walls = lb.structures.wedge(lb.OrdunaLourenco(0.7), half_angle=np.radians(25.0))
+    model = replace(walls, live=lb.mass_proportional((0, 0, 1)))
+    found = adequacy(model, PartialFactors(1.0, Q, 1.2))
+    assert found.factor == pytest.approx(1.0 / Q, rel=1e-8)
+    assert found.bounds is None
+    assert found.characteristic_factor == pytest.approx(1.0, rel=1e-8)
+    assert "associated, of the design model" in lb.report(model, found).text
+    with pytest.raises(lb.errors.UnlimitedLoad):
+        adequacy(model, PartialFactors(1.0, Q, 1.2), without_dilatancy=False)
 
 
 def test_command(tmp_path):
