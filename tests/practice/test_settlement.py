@@ -220,7 +220,7 @@ def test_thrust_of_a_flat_arch_is_not_held_by_its_guide():
 
 @pytest.mark.parametrize("thickness", [0.1, 1.0], ids=["the guide turns", "nothing turns"])
 def test_stones_between_abutments_that_close_in_jam(thickness):
-    with pytest.raises(lb.errors.UnlimitedLoad, match="'right': .* the structure jams against this"):
+    with pytest.raises(lb.errors.UnlimitedLoad, match=r"'right': .* the structure jams against this"):
         settlement(two_stones(2.0, thickness), "right", (-1, 0, 0))
 
 
@@ -236,7 +236,7 @@ def test_a_stone_propped_between_supports_is_not_said_to_jam_alone():
     model = lb.Model(
         stones, ["floor", "wall", "pier"], joints, lb.self_weight(), lb.mass_proportional((1, 0, 0))
     )
-    with pytest.raises(lb.errors.UnlimitedLoad, match="'pier': .* between this support and another"):
+    with pytest.raises(lb.errors.UnlimitedLoad, match=r"'pier': .* between this support and another"):
         settlement(model, "pier", DOWN)
 
 
