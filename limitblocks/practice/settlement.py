@@ -28,7 +28,7 @@ from limitblocks.shown import Result, kept
 
 JAMMED = (
     "settlement of {!r}: with dilatancy its reaction has no limit: the structure jams against this motion "
-    "or stones between this support and another press against both, however hard; check the direction, which is "
+    "or stones between this support and another press against both, however hard; check the direction, "
     "that in which the ground moves, such as 0,0,-1 for one that sinks, and what else holds those stones"
 )
 OFF = 1e-6  # of the motion along the line: more than rounding
