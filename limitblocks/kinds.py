@@ -97,7 +97,7 @@ KINDS: dict[str, Kind] = {
         section=f"{_REPORTS}.verification_section:verification_section",
     ),
     "adequacy": Kind(
-        home=f"{_PRACTICE}.adequacy:Adequacy",
+        home=f"{_PRACTICE}.adequacy_result:Adequacy",
         section=f"{_REPORTS}.adequacy_section:adequacy_section",
     ),
     "settlement": Kind(

@@ -1,6 +1,7 @@
 """What practice asks: ties, settlement, capacity curve, verification, vehicles, water, repair."""
 
-from limitblocks.practice.adequacy import Adequacy, DesignValue, adequacy, design_model
+from limitblocks.practice.adequacy import adequacy, design_model
+from limitblocks.practice.adequacy_result import Adequacy, DesignValue
 from limitblocks.practice.backfill import passive_fill
 from limitblocks.practice.capacity import capacity_curve
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
