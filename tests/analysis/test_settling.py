@@ -109,6 +109,20 @@ def test_a_load_factor_that_stands_still_ends_a_path(moved_corner, change, ends)
         assert not still.stands_still(state, 50 + k)
     last = replace(state, load_factor=a * (1.0 + change))
     assert still.stands_still(last, 50 + settling.SOON) is ends is not still.changes
+    later = 50 + 2 * settling.SOON  # it changed once, and then no more
+    assert ends or not still.stands_still(last, later - 1)
+    assert still.stands_still(last, later)
+    assert not still.changes
+
+
+def test_a_state_of_another_load_factor_than_the_last_is_no_end(moved_corner):
+    p = moved_corner.problem
+    state = State(0.3, np.zeros(p.C.shape[0]), np.zeros(p.C.shape[1]), np.zeros(len(p.g)))
+    still = settling.Settling(Flow(p), best=replace(state, load_factor=0.3003))
+    assert not still.stands_still(state, 50)
+    assert not still.stands_still(state, 50 + settling.SOON)
+    still.best = state
+    assert still.stands_still(state, 50 + settling.SOON)
 
 
 @pytest.mark.parametrize(("before", "exact"), [(True, False), (True, True), (False, False)])
@@ -149,7 +163,7 @@ def test_a_range_is_not_sampled_where_a_load_factor_still_changes(moved_corner, 
 def test_a_smaller_residual_is_judged_again_once_it_is_that_of_a_polish(moved_corner, monkeypatch):
     p, asked = moved_corner.problem, []
     monkeypatch.setattr(settling, "exact_nearby", lambda *_: bool(asked.append(1)))
-    found = settling.Settling(Flow(p), first=0.3)
+    found = settling.Settling(Flow(p), last=0.3)
     state = State(0.3, np.zeros(p.C.shape[0]), np.zeros(p.C.shape[1]), np.zeros(len(p.g)))
     for residual, count in ((5e-9, 1), (2e-10, 1), (3e-11, 2), (2e-11, 2), (2e-12, 3)):
         found.keep(state, state, residual)

@@ -234,5 +234,5 @@ class Walk:
         if self.settling.left > TOLERANCE:
             return False
         still = self.settling.stands_still(self.state, self.factorisations)
-        self.budget, self.patience = self.settling.since + FURTHER, None
+        self.budget, self.patience = self.settling.within + FURTHER, None
         return still

@@ -21,8 +21,8 @@ from limitblocks.problem import Flow, State
 EXACT = 1e-10  # residual that only a polish reaches: none of 278 rows has then a large backward error
 LESS = 0.1  # of the residual, from EXACT on, where it is asked for again: it costs 100 factorisations
 STILL = 1e-4  # change of the load factor
-# Factorisations beyond the tolerance: at most, and until the load factor is one that stands still.
-# A corner of 30 blocks moved by 1e-6 to 1e-5 m ends 26 to 1,080 beyond it.
+# Factorisations beyond the tolerance: at most, and without a change of a load factor that stands still.
+# A corner of 30 blocks moved by 1e-6 to 1e-5 m ends 26 to 1,080 beyond it, and changes all 16 of them.
 FURTHER, SOON = 1100, 60
 DRIFT = 0.01  # of the load factor, from the point to its polish: farther it is another path's solution
 
@@ -36,17 +36,19 @@ def exact_nearby(flow: Flow, state: State) -> bool:
 class Settling:
     """The best state of a path, where that came within the tolerance, and how the load factor changed since.
 
-    `left` is the worst residual of the best state; `change` is over the size of the load factor. The backward
-    error is asked for where the residual is at most `judged`.
+    `left` is the worst residual of the best state; changes are measured by `unit`, the size of the load
+    factor. The backward error is asked for where the residual is at most `judged`. The path came within the
+    tolerance after `within` factorisations, and the load factor is `last` since as many as `since`.
     """
 
     flow: Flow
     best: State | None = None
     left: float = np.inf
-    first: float | None = None
+    last: float | None = None
     unit: float = 1.0
+    within: int = 0
     since: int = 0
-    change: float = 0.0
+    changes: bool = False
     judged: float = TOLERANCE
 
     def keep(self, state: State, reached: State, residual: float | None = None) -> None:
@@ -60,25 +62,27 @@ class Settling:
         """Whether the best state is exact for a model nearby."""
         if self.best is None or self.left > self.judged:
             return False
-        if self.left <= EXACT and self.first is None:
+        if self.left <= EXACT and self.last is None:
             return True
         self.judged = min(LESS * self.left, EXACT)
         return exact_nearby(self.flow, self.best)
 
     def stands_still(self, reached: State, factorisations: int) -> bool:
-        """Whether the load factor is the one at which the path came within the tolerance."""
-        if self.first is None:
-            self.first, self.since = reached.load_factor, factorisations
-            self.unit = Measure(self.flow.problem, reached).power
-        self.change = max(self.change, abs(reached.load_factor - self.first) / self.unit)
-        return factorisations >= self.since + SOON and not self.changes
+        """Whether the load factor of a path within the tolerance has not changed for a while."""
+        if self.last is None:
+            self.unit, self.within = Measure(self.flow.problem, reached).power, factorisations
+        if self.last is None or self._apart(reached):
+            self.changes = self.last is not None
+            self.last, self.since = reached.load_factor, factorisations
+        if factorisations < self.since + SOON or self._apart(self.best or reached):
+            return False
+        self.changes = False
+        return True
+
+    def _apart(self, state: State) -> bool:
+        return self.last is not None and abs(state.load_factor - self.last) > STILL * self.unit
 
     @property
     def unsettled(self) -> bool:
         """Whether the end of a path is within the tolerance and yet no answer: exact for no model nearby."""
         return self.changes and self.best is not None and not exact_nearby(self.flow, self.best)
-
-    @property
-    def changes(self) -> bool:
-        """Whether the load factor changed since."""
-        return self.change > STILL
