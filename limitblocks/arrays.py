@@ -64,9 +64,10 @@ def in_columns(matrix: sparse.csr_array, weights: Array) -> Array:
 
 def in_blocks(matrix: sparse.csr_array, first: Indices, column: Indices, shape: tuple[int, ...]) -> Array:
     """Rows of a matrix as an array of a `shape`: the `first` place of each, -1 for none, and of columns."""
-    start, values = np.repeat(first, np.diff(matrix.indptr)), np.zeros(shape)
-    kept = slice(None) if first.min(initial=0) >= 0 else start >= 0
-    values.ravel()[(start + column[matrix.indices])[kept]] = matrix.data[kept]
+    place, values = np.repeat(first, np.diff(matrix.indptr)), np.zeros(shape)
+    kept = slice(None) if first.min(initial=0) >= 0 else place >= 0
+    place += column[matrix.indices]
+    values.ravel()[place[kept]] = matrix.data[kept]
     return values
 
 

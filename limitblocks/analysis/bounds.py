@@ -98,7 +98,7 @@ def bounds(model: Model, *, tolerance: float = OF_BOUNDS, progress: Tell | None 
 
 def _bounds(model: Model, tolerance: float, tell: Tell) -> Bounds:
     # a live load that holds up what would fall gives a load factor, too
-    problem = model.problem
+    problem, digest = model.problem, model.digest  # both walk all blocks: while they are in the cache
     dead, pair, proof = _directly(problem, tolerance, tell) or _with_care(problem, tolerance, tell)
     state, upper = without_rounding(problem, pair.state, pair.upper)
     si = problem.in_si(state)
@@ -118,7 +118,7 @@ def _bounds(model: Model, tolerance: float, tell: Tell) -> Bounds:
         proof=proof,
         solvers=(pair.solver, pair.solver),
         tolerance=tolerance,
-        digest=model.digest,
+        digest=digest,
         remarks=beyond_stress_block(model, resultants),
     )
 
