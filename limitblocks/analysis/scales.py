@@ -16,7 +16,7 @@ import numpy as np
 from scipy import sparse
 
 from limitblocks.analysis.definite import solver_of
-from limitblocks.arrays import Array, in_columns, largest_in_rows
+from limitblocks.arrays import Array, in_columns
 from limitblocks.evidence.measure import ROUNDING, Measure
 from limitblocks.problem import Cones, LimitProblem, State, in_units, power_of_two
 
@@ -55,8 +55,8 @@ class Scaled:
     def row(self) -> Array:
         """Powers of two that bring the largest entry of each linear row and each cone near one, (R,)."""
         p = self.problem
-        largest = np.zeros(p.cones.degree)
-        np.maximum.at(largest, p.cones.member, largest_in_rows(in_units(p.F, np.ones(len(p.g)), self.stress)))
+        member, largest = np.repeat(p.cones.member, np.diff(p.F.indptr)), np.zeros(p.cones.degree)
+        np.maximum.at(largest, member, np.abs(p.F.data) * self.stress[p.F.indices])
         return unit(largest)[p.cones.member]
 
     @cached_property

@@ -8,7 +8,8 @@ Stability of Numerical Algorithms, Sections 2.1, 3.1 and 4.2).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
+from operator import add
 from typing import Any
 
 import numpy as np
@@ -41,15 +42,13 @@ class Products:
             np.diff(A.indptr) if A.format == "csr" else np.bincount(A.indices, minlength=rows)
             for A in self.matrices
         ]
-        return int(np.sum(counts, axis=0).max(initial=0))
+        return int(reduce(add, counts).max(initial=0))
 
     def of(self, vectors: tuple[Array, ...], *addends: Array) -> tuple[Array, Array]:
         """Return the sums as computed, the addends among them, and the most that each row is off by."""
-        value = size = np.zeros(self.matrices[0].shape[0])
-        for A, absolute, v in zip(self.matrices, self.sizes, vectors, strict=True):
-            value, size = value + A @ v, size + absolute @ size_of(v)
-        for addend in addends:
-            value, size = value + addend, size + size_of(addend)
+        value = reduce(add, [A @ v for A, v in zip(self.matrices, vectors, strict=True)] + [*addends])
+        sizes = [A @ size_of(v) for A, v in zip(self.sizes, vectors, strict=True)]
+        size = reduce(add, sizes + [size_of(addend) for addend in addends])
         error = _error(self.count + 2 * len(addends) + 2, size)
         return value, error * (size != 0.0)  # nothing is added: it is exact
 

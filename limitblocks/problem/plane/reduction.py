@@ -96,7 +96,7 @@ def _rates(mirror: Mirror, blocks: Indices) -> sparse.csr_array:
         entries = np.tile(own[a, b], len(i)), (6 * i[:, None] + a).ravel(), (6 * j[:, None] + b).ravel()
         triplets.append(entries)
     data, rows, columns = (np.concatenate(part) for part in zip(*triplets, strict=True))
-    return sparse.coo_array((data, (rows, columns)), shape=(6 * n, 6 * len(blocks))).tocsr()
+    return sparse.csr_array((data, (rows, columns)), shape=(6 * n, 6 * len(blocks)))
 
 
 def _ends(ends: Indices, image: Indices, blocks: Indices) -> Indices:
@@ -131,8 +131,8 @@ def _stresses_and_rows(
                 triplets.append([np.broadcast_to(v, Y.shape)[keep] for v in (Y, old, column)])
             parts += _rows_of(kind, own, X, choice, mirror.flat)
     data, old, new = (np.concatenate(part) for part in zip(*triplets, strict=True))
-    stresses = sparse.coo_array((data, (old, new)), shape=(problem.C.shape[0], width)).tocsr()
-    return sparse.csr_array(stresses), _joined(parts, len(problem.g))
+    stresses = sparse.csr_array((data, (old, new)), shape=(problem.C.shape[0], width))
+    return stresses, _joined(parts, len(problem.g))
 
 
 def _rows_of(kind: Mirrored, own: Indices, X: Array, choice: Choice, lines: bool) -> list[PlaneRows]:
@@ -177,10 +177,10 @@ def _joined(parts: list[PlaneRows], height: int) -> tuple[Indices, sparse.csr_ar
     data = np.concatenate([part.weight for part in parts])
     rows = np.concatenate([part.row + k for part, k in zip(parts, first[:-1], strict=True)])
     columns = np.concatenate([part.column for part in parts])
-    weights = sparse.coo_array((data, (rows, columns)), shape=(len(source), height)).tocsr()
+    weights = sparse.csr_array((data, (rows, columns)), shape=(len(source), height))
     linear = sum(len(part.source) for part in parts if part.size == 1)
     sizes = [part.size for part in parts if part.size > 1 for _ in range(len(part.source) // part.size)]
-    return source, sparse.csr_array(weights), Cones.of_sizes(linear, sizes)
+    return source, weights, Cones.of_sizes(linear, sizes)
 
 
 def _cleaned(A: sparse.csr_array) -> sparse.csr_array:
