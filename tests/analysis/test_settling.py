@@ -109,7 +109,7 @@ def test_a_load_factor_that_stands_still_ends_a_path(moved_corner, change, ends)
         assert not still.stands_still(state, 50 + k)
     last = replace(state, load_factor=a * (1.0 + change))
     assert still.stands_still(last, 50 + settling.SOON) is ends is not still.changes
-    later = 50 + 2 * settling.SOON  # it changed once, and then no more
+    later = 50 + settling.SOON + settling.LATER  # it changed once, and then no more
     assert ends or not still.stands_still(last, later - 1)
     assert still.stands_still(last, later)
     assert not still.changes

@@ -21,9 +21,10 @@ from limitblocks.problem import Flow, State
 EXACT = 1e-10  # residual that only a polish reaches: none of 278 rows has then a large backward error
 LESS = 0.1  # of the residual, from EXACT on, where it is asked for again: it costs 100 factorisations
 STILL = 1e-4  # change of the load factor
-# Factorisations beyond the tolerance: at most, and without a change of a load factor that stands still.
-# A corner of 30 blocks moved by 1e-6 to 1e-5 m ends 26 to 1,080 beyond it, and changes all 16 of them.
-FURTHER, SOON = 1100, 60
+# Factorisations beyond the tolerance: at most; without a change from the first one on; and after a change.
+# A corner of 30 blocks moved by 1e-6 to 1e-5 m ends 26 to 1,080 beyond it, and changes all 16 of them; a
+# facade of 160 (friction .4, out) all 65, and does not end.
+FURTHER, SOON, LATER = 1100, 60, 240
 DRIFT = 0.01  # of the load factor, from the point to its polish: farther it is another path's solution
 
 
@@ -74,7 +75,8 @@ class Settling:
         if self.last is None or self._apart(reached):
             self.changes = self.last is not None
             self.last, self.since = reached.load_factor, factorisations
-        if factorisations < self.since + SOON or self._apart(self.best or reached):
+        soon = LATER if self.changes else SOON
+        if factorisations < self.since + soon or self._apart(self.best or reached):
             return False
         self.changes = False
         return True
