@@ -26,6 +26,8 @@ STILL = 1e-6  # of the largest speed: a relative motion below it counts as none
 TOUCH = 1e-5  # of the size of the structure: a corner that comes as near closes
 SECANTS = 4  # to where a contact closes; then steps are halved
 SHORTEST = 2.0**-20  # of a step: where a contact closes
+PROBE = 1e-8  # of the size of the structure: so short a motion is one of the first order
+AT_ODDS = 1e-5  # of that motion: a tie that it lengthens by more is lengthened
 BESIDE = 1e-2  # of the size of a block: a point as far from it is not on it
 
 
@@ -123,6 +125,9 @@ def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assem
     The contacts that the displacements do not open are brought together again. None if it is stuck.
     """
     held, sliding, yielding = _motion(assembly, displacements)
+    for k in _at_odds(assembly, displacements, held, sliding):
+        held[k] = np.zeros(1, dtype=bool)
+        yielding.add(k)
     was, least = [own.ways[:, 2] for own in assembly.contacts], 10.0 * CLOSED * assembly.size
     rigid = np.concatenate(
         [np.full(len(own.on_i), own.rigid and k not in yielding) for k, own in enumerate(assembly.contacts)]
@@ -186,6 +191,22 @@ def _motion(assembly: Assembly, rates: Array) -> tuple[list[Truths], list[bool],
         held.append(closed & own.rigid & (number not in yielding))
         sliding.append(bool((np.linalg.norm(relative[closed, :2], axis=1) > least).any()) and not own.tied)
     return held, sliding, yielding
+
+
+def _at_odds(assembly: Assembly, rates: Array, held: list[Truths], sliding: list[bool]) -> set[int]:
+    """Taut ties that crushing does not lengthen but the motion does, by number: they go with the motion.
+
+    A joint that crushes turns about the inner edge of what is crushed, in the finite motion about the toe.
+    """
+    least = 10.0 * CLOSED * assembly.size
+    taut = {k for k, own in enumerate(assembly.contacts) if own.tied and own.ways[0, 2] <= least}
+    joints = [own.interface.joint for own in assembly.contacts if own.pressed]
+    if not taut or all(getattr(joint, "compressive_strength", None) is None for joint in joints):
+        return set()
+    way, (start, _) = PROBE * assembly.size, closed_up(assembly, held, sliding)
+    probe = moved(start, way / largest_rate(assembly.model, rates) * rates)
+    was, now = start.contacts, closed_up(probe, held, sliding, rates)[0].contacts
+    return {k for k in taut if now[k].ways[0, 2] < min(was[k].ways[0, 2], 0.0) - AT_ODDS * way}
 
 
 def carried(assembly: Assembly, goal: Assembly, control: Control) -> Control:
