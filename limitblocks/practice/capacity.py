@@ -114,7 +114,7 @@ def _curve(
         still = before is not None and abs(point.displacement - before.displacement) <= CLOSED * assembly.size
         if point.load_factor <= (NEARLY if still else ZERO) * scale:
             return None  # below it where it jumps through zero
-        if point.displacement >= end * (1.0 - 1e-12):
+        if point.displacement >= end - CLOSED * whole:  # what is left moves nothing
             size = "" if largest <= whole else ", the size of the structure,"
             return f"the displacement {end:g} m{size} is reached"
         if not (pace := _pace(assembly, control, point.result.displacement_rates)) > STILL:

@@ -68,3 +68,17 @@ def test_a_tied_wall_whose_toe_crushes(case, steps):
         assert -point.result.stress_resultants[0, 2] == pytest.approx(normal, rel=1e-5)
     zero = height * np.sin(brentq(lambda turn: by_hand(turn, **case)[0], 0.0, 1.0))
     assert curve.zero == pytest.approx(zero, rel=1e-5)
+
+
+def test_a_curve_ends_where_its_last_step_falls_short_by_rounding():
+    """One wall leans on another; what was left to .5 m moved nothing, as if a contact stopped it."""
+    blocks = [
+        lb.Block.box("ground", (30, 1, 0.4), at=(0, 0, -0.2)),
+        lb.Block.box("higher", (0.5, 1, 4), at=(-0.25, 0, 2), unit_weight=UNIT_WEIGHT),
+        lb.Block.box("lower", (0.7, 1, 3), at=(0.35, 0, 1.5), unit_weight=UNIT_WEIGHT),
+    ]
+    joints = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.6, compressive_strength=1e7))
+    model = lb.Model(blocks, ["ground"], joints, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    curve = capacity_curve(model, steps=4, largest=0.5)
+    assert curve.ended == "the displacement 0.5 m is reached"
+    assert np.diff(curve.displacements).min() > 1e-6
