@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from limitblocks.errors import ModelError
 from limitblocks.practice.capacity_result import CapacityCurve
 from limitblocks.practice.inputs import GIVEN
 from limitblocks.practice.spectra import Place, Spectrum, ground_acceleration
@@ -44,6 +45,11 @@ def displacement_check(
     d = share * d0
     there = _least_at(curve, share * curve.zero)
     elastic = 4.0 * np.pi**2 * d / T_0**2 if T_0 else np.inf
+    if not there > 0.0:
+        raise ModelError(
+            f"the capacity curve has too few points near {share:g} of its zero: by the chords beside them it "
+            "may be zero there; ask for more steps"
+        )
     line, own = min(a0 * (1.0 - share), elastic), min(there * scales[1], elastic)
     periods = [factor * np.pi * float(np.sqrt(d / a)) for a in (line, own)]
     demand = place.displacement(spectrum, periods, damping)

@@ -143,8 +143,8 @@ def other_answers(collapse: Any) -> tuple[str, ...]:
         return ()
     return (
         f"alpha0 = {alpha:.4g} is one answer, others may solve as well, up to {associated:.4g} (associated): "
-        "load_factor_range (limitblocks range) shows how low those lie that loading reaches; verify with the "
-        "least of them",
+        "load_factor_range (limitblocks range) shows how low those lie that loading reaches; make the "
+        "linear checks with the least of them; a capacity curve follows that of nonassociated alone",
     )
 
 

@@ -222,7 +222,7 @@ class Place:
 def ground_acceleration(ground: Spectrum, demand: Callable[[Spectrum], float], capacity: float) -> float:
     """Return the a_g of a spectrum at which a demand, which grows with it, is the capacity; m/s2.
 
-    Zero where it is less than a millionth of that of the site.
+    Zero where it is less than a millionth of that of the site; ModelError where more than a million times.
     """
 
     def excess(a_g: float) -> float:
@@ -230,4 +230,6 @@ def ground_acceleration(ground: Spectrum, demand: Callable[[Spectrum], float], c
 
     if excess(ground.a_g / WIDEST) >= 0.0:
         return 0.0
+    if excess(ground.a_g * WIDEST) < 0.0:
+        raise ModelError(f"a_g is {ground.a_g:g} m/s2: {WIDEST:g} times as much does not reach the capacity")
     return float(brentq(excess, ground.a_g / WIDEST, ground.a_g * WIDEST, rtol=1e-13))

@@ -6,19 +6,17 @@ the official text. No verdict of a code beyond the inequalities named.
 
 from __future__ import annotations
 
-from math import isclose
-
 import numpy as np
 
 from limitblocks.analysis.magnitudes import of_ground
-from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.evidence.interface_states import Collapse, collapse_of
 from limitblocks.mechanics.loads.load import number
 from limitblocks.mechanics.loads.load import place as pair
-from limitblocks.model import Model, checked_model, refuse_other
-from limitblocks.practice.capacity_result import CapacityCurve, zero_of
+from limitblocks.model import Model, checked_model
+from limitblocks.practice.capacity_result import CapacityCurve
 from limitblocks.practice.displacement_check import displacement_check
+from limitblocks.practice.followed import per_control
 from limitblocks.practice.inputs import (
     GIVEN,
     LC1,
@@ -68,7 +66,7 @@ def verification(
     q : float
         Needed: behaviour factor of the linear check, C8.7.1.2.1.7: 2 unless there is better.
     curve : CapacityCurve, optional
-        Of this model, to zero: gives d0* and the non-linear checks.
+        Of this model and this mechanism, to zero: gives d0* and the non-linear checks.
     confidence : float
         FC, at least 1; that of LC1, 1.35, where joints have no compressive strength (C8.7.1.2.1.3).
     floor : Floor, optional
@@ -86,7 +84,8 @@ def verification(
     Raises
     ------
     ModelError
-        If a number is out of range, the live load is not that, or the curve does not end at zero.
+        If a number is out of range, the live load is not that, or the curve does not end at zero or is of
+        another mechanism.
     LimitBlocksError
         If the result is not one of this model, or no solution: one of a file, or a claim, is checked first.
 
@@ -122,7 +121,7 @@ def verification(
         checks.append(Inequality("linear, SLD", a0, needed, "m/s2", _equation(place)))
     if curve:
         rates = scale * collapse.displacement_rates
-        scales = (_per_control(model, rates, curve, masses), G / (e * confidence))
+        scales = (per_control(model, alpha, rates, curve, masses), G / (e * confidence))
         limit_states = [("SLV", demand, damping[0], set_off)]  # the text has what sets it off of SLV alone
         if collapse_demand:
             limit_states.append(("SLC", collapse_demand, damping[1], 0.0))
@@ -214,21 +213,3 @@ def _linear(demand: Spectrum, place: Place, q: float, ground: float) -> list[Qua
         Quantity("zeta_E", "a_g,SLV over that of the site", "a_g,SLV / a_g", q * ground / demand.a_g, "",
                  "NTC 2018 8.3"),
     ]  # fmt: skip
-
-
-def _per_control(model: Model, rates: Array, curve: CapacityCurve, masses: tuple[MovingMass, ...]) -> float:
-    """Spectral displacement over that of the control point, [C8.7.1.4]."""
-    if curve.zero is None:
-        raise ModelError(f"the capacity curve does not end at zero: {curve.ended}")
-    refuse_other(model, curve)
-    if curve.zero == 0.0:
-        raise ModelError("the capacity curve is zero from the first: the live load meets no resistance")
-    if not isclose(curve.zero, zero := zero_of(curve.points)):
-        raise ModelError(
-            f"the capacity curve says that it is zero at {curve.zero:g} m; by its last points, at {zero:g} m"
-        )
-    k = [block.name for block in model.blocks].index(curve.control.block)
-    arm = curve.control.point - model.blocks[k].centroid
-    delta = float((rates[k, :3] + np.cross(rates[k, 3:], arm)) @ curve.control.direction)
-    P, x = (np.array([getattr(one, of) for one in masses]) for of in ("weight", "horizontal"))
-    return float(P @ x**2) / (delta * float(P @ x))

@@ -6,9 +6,10 @@ import facades
 import numpy as np
 import pytest
 from facades import FC, SITE, G, H
+from few_blocks import sliding_block
 
 import limitblocks as lb
-from limitblocks.practice import Spectrum, verification
+from limitblocks.practice import Spectrum, capacity_curve, verification
 from limitblocks.practice.capacity_result import zero_of
 from limitblocks.practice.displacement_check import _least_at
 
@@ -100,3 +101,38 @@ def test_a_curve_whose_joints_press_across_their_gaps_is_said_to(facade, answer,
     assert not any("gaps" in one for one in without.remarks)
     once = replace(curve, points=(first, replace(second, across=(gap,)), *rest))
     assert once.proven_to == first.displacement
+
+
+def test_a_curve_of_another_mechanism_is_refused():
+    """With dilatancy a block that slides rises by its friction coefficient, without by none."""
+    model = sliding_block()
+    curve = capacity_curve(model, steps=3)
+    with pytest.raises(lb.ModelError, match="or of another mechanism"):
+        verification(model, lb.bounds(model), SITE, q=2.0, curve=curve)
+    found = verification(model, lb.nonassociated(model), SITE, q=2.0, curve=curve)
+    assert found["d0*"] == pytest.approx(curve.zero, rel=1e-6)  # one block: e* = 1
+
+
+@pytest.mark.parametrize("factor", [0.998, 1.002])
+def test_a_curve_of_another_answer_is_refused(facade, answer, curve, factor):
+    first, *rest = curve.points
+    other = replace(curve, points=(replace(first, load_factor=factor * first.load_factor), *rest))
+    with pytest.raises(lb.ModelError, match="that of another answer"):
+        verification(facade, answer, SITE, q=2.0, curve=other)
+
+
+def test_a_curve_of_too_few_points_is_refused(facade, answer, curve):
+    """From 1 to .1 over .2 of its zero, straight to it: the first chord drawn on is below zero at .4."""
+    way = ((0.0, 1.0), (0.2, 0.1), (1.0, 0.0))
+    points = tuple(
+        replace(curve.points[0], displacement=d * curve.zero, load_factor=a * answer.load_factor)
+        for d, a in way
+    )
+    with pytest.raises(lb.ModelError, match=r"too few points near 0\.4 of its zero"):
+        verification(facade, answer, SITE, q=2.0, curve=replace(curve, points=points))
+
+
+def test_a_ground_that_hardly_moves_is_told(facade, answer, curve):
+    still = Spectrum(1e-9, SITE.S, SITE.F0, SITE.T_C)
+    with pytest.raises(lb.ModelError, match=r"a_g is 1e-09 m/s2: 1e\+06 times as much"):
+        verification(facade, answer, still, q=2.0, curve=curve)
