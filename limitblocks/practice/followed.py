@@ -62,6 +62,6 @@ def _refuse_other_mechanism(model: Model, alpha: float, rates: Array, curve: Cap
         return
     raise ModelError(
         f"the capacity curve is that of another answer (alpha0 = {first.load_factor:.6g}) than the one "
-        f"verified (alpha0 = {alpha:.6g}), or of another mechanism: verify that of nonassociated, where it starts, or "
-        "leave the curve out"
+        f"verified (alpha0 = {alpha:.6g}), or of another mechanism: verify that of nonassociated, where it "
+        "starts, or leave the curve out"
     )

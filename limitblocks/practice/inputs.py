@@ -149,14 +149,15 @@ def other_answers(collapse: Any) -> tuple[str, ...]:
 
 
 def other_mechanisms(
-    model: Model, collapse: Any, alpha: float, a0: float, confidence: float
+    model: Model, collapse: Any, alpha: float, a0: float, confidence: float, *, curve: bool
 ) -> tuple[str, ...]:
     """Return that other mechanisms have the same alpha0, and how low their a0* may be.
 
-    By Cauchy and Schwarz' inequality their e* is at most 1.
+    By Cauchy and Schwarz' inequality their e* is at most 1. Where this one has no less they matter to a
+    `curve` alone: the displacement of another may be less.
     """
     least = alpha * G / confidence
-    if least >= (1.0 - ALIKE) * a0:
+    if least >= (1.0 - ALIKE) * a0 and not curve:
         return ()
     problem = model.problem
     free = [block.name not in model.supports for block in model.blocks]
@@ -171,5 +172,5 @@ def other_mechanisms(
     return (
         f"{known} with this alpha0, in which the blocks move in other proportions: their e* is up to 1, their"
         f" a0* down to {least:.4g} m/s2, and the ratios of the linear checks in proportion; that is safe, or"
-        " verify each joint that moves by itself",
+        " verify each part that moves by itself",
     )

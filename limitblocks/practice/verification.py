@@ -31,7 +31,7 @@ from limitblocks.practice.inputs import (
 )
 from limitblocks.practice.moving_masses import STILL, MovingMass, moving_masses
 from limitblocks.practice.spectra import MOST, MOST_DAMPING, Floor, G, Place, Spectrum, ground_acceleration
-from limitblocks.practice.verification_result import Inequality, Quantity, Verification, steps
+from limitblocks.practice.verification_result import MANY, Inequality, Quantity, Verification, steps
 
 SIMPLIFIED = "C8.7.1.2.1.7"
 MOST_FC = 2.0  # the code has 1 to 1.35
@@ -66,7 +66,8 @@ def verification(
     q : float
         Needed: behaviour factor of the linear check, C8.7.1.2.1.7: 2 unless there is better.
     curve : CapacityCurve, optional
-        Of this model and this mechanism, to zero: gives d0* and the non-linear checks.
+        Of this model and this mechanism, to zero: gives d0* and the non-linear checks, which are `left_out`
+        where others have the same alpha0.
     confidence : float
         FC, at least 1; that of LC1, 1.35, where joints have no compressive strength (C8.7.1.2.1.3).
     floor : Floor, optional
@@ -119,26 +120,24 @@ def verification(
         found += steps("demand", given(damage_demand, "SLD"))
         needed = place.acceleration(damage_demand)
         checks.append(Inequality("linear, SLD", a0, needed, "m/s2", _equation(place)))
-    if curve:
-        rates = scale * collapse.displacement_rates
-        scales = (per_control(model, alpha, rates, curve, masses), G / (e * confidence))
-        limit_states = [("SLV", demand, damping[0], set_off)]  # the text has what sets it off of SLV alone
-        if collapse_demand:
-            limit_states.append(("SLC", collapse_demand, damping[1], 0.0))
-        for state, spectrum, xi, least in limit_states:
-            found += steps("demand", given(spectrum, state)) if state != "SLV" else []
-            more, check = displacement_check(state, curve, scales, spectrum, place, xi, least)
-            found += steps(state, more)
-            checks.append(check)
+    rates = scale * collapse.displacement_rates
+    ratio = per_control(model, alpha, rates, curve, masses) if curve else 0.0
+    others = other_mechanisms(model, collapse, alpha, a0, confidence, curve=curve is not None)
+    if curve and not others:
+        scales = (ratio, G / (e * confidence))
+        more, non_linear = _non_linear(curve, scales, (demand, collapse_demand), damping, place, set_off)
+        found += more
+        checks += non_linear
     said = (
         *of_ground(demand.a_g),
         *unproven(collapse, curve),
         *other_answers(collapse),
-        *other_mechanisms(model, collapse, alpha, a0, confidence),
+        *others,
         *collapse.remarks,  # type: ignore[attr-defined] # of every state
         *remarks(model, collapse.displacement_rates, confidence),
     )
-    return Verification(tuple(found), tuple(checks), masses, model.digest, said)
+    left_out = MANY if curve and others else ""
+    return Verification(tuple(found), tuple(checks), masses, model.digest, said, left_out)
 
 
 def _refuse(demand: object, *others: object) -> None:
@@ -213,3 +212,22 @@ def _linear(demand: Spectrum, place: Place, q: float, ground: float) -> list[Qua
         Quantity("zeta_E", "a_g,SLV over that of the site", "a_g,SLV / a_g", q * ground / demand.a_g, "",
                  "NTC 2018 8.3"),
     ]  # fmt: skip
+
+
+def _non_linear(
+    curve: CapacityCurve,
+    scales: tuple[float, float],
+    demands: tuple[Spectrum, Spectrum | None],
+    damping: tuple[float, float],
+    place: Place,
+    set_off: float,
+) -> tuple[list[Quantity], list[Inequality]]:
+    """The checks at SLV and, with its spectrum, at SLC; the text has what sets it off of SLV alone."""
+    found, checks = [], []
+    for state, spectrum, xi, least in zip(("SLV", "SLC"), demands, damping, (set_off, 0.0), strict=True):
+        if spectrum:
+            found += steps("demand", given(spectrum, state)) if state != "SLV" else []
+            more, check = displacement_check(state, curve, scales, spectrum, place, xi, least)
+            found += steps(state, more)
+            checks.append(check)
+    return found, checks

@@ -88,7 +88,7 @@ class Verification(Result):
     remarks : tuple of str
         What the text asks and the input does not follow.
     left_out : str
-        Why the non-linear checks, though asked for, were not made.
+        Why the non-linear checks, though asked for, were not made: no zero, or one mechanism of many.
     digest : str
         SHA-256 of the model.
     """
@@ -136,6 +136,13 @@ class Verification(Result):
         )
         said = (f"a0* = {self['a0*']:.4g} m/s2", *checks, *(self.left_out,) * bool(self.left_out))
         return self._line(*said)
+
+
+#: Why there are no non-linear checks where the proportions in which parts move are arbitrary.
+MANY = (
+    "no non-linear check: the mechanism is, or may be, one of many with this alpha0, and d0* would be that "
+    "of an arbitrary mix of them; verify each part that moves in a model of its own"
+)
 
 
 def without_curve(found: Verification, ended: str) -> Verification:

@@ -11,7 +11,7 @@ import limitblocks as lb
 from limitblocks.evidence import mechanisms
 from limitblocks.evidence.mechanism import find_mechanism
 from limitblocks.evidence.mechanisms import change_of_mechanism
-from limitblocks.practice import uplift, verification
+from limitblocks.practice import capacity_curve, uplift, verification
 from limitblocks.problem import Flow, State
 
 PUSH = lb.mass_proportional((1, 0, 0))
@@ -124,3 +124,41 @@ def test_what_yields_and_does_not_flow_in_this_mechanism_may_in_another():
     assert lower @ u == pytest.approx(0.5, rel=1e-6)
     assert change_of_mechanism(flow, state, lower) > 0.1
     assert change_of_mechanism(flow, state, problem.live) == pytest.approx(0.0, abs=1e-9)
+
+
+def walls_side_by_side(*sizes):
+    """Walls of .4 m x 2 m times their sizes, 1 m deep, each by itself on the same ground."""
+    stones = [lb.Block.box("ground", (14, 3, 0.4), at=(0, 0, -0.2))]
+    stones += [
+        lb.Block.box(f"wall {k}", (0.4 * size, 1, 2 * size), at=(6 * k - 3, 0, size), unit_weight=18e3)
+        for k, size in enumerate(sizes)
+    ]
+    joints = lb.find_interfaces(stones, lb.PointContact(0.6))
+    return lb.Model(stones, ["ground"], joints, lb.self_weight(), PUSH)
+
+
+def test_walls_that_rock_each_by_itself_are_not_verified_together():
+    """A wall alone: d0* = h/2 sin(atan(b/h)), not satisfied; the mix of both had been."""
+    alone, both = walls_side_by_side(1.0), walls_side_by_side(1.0, 3.0)
+    small = verification(alone, lb.nonassociated(alone), SITE, q=2.0, curve=capacity_curve(alone, steps=3))
+    assert small["d0*"] == pytest.approx(np.sin(np.arctan(0.2)), rel=1e-6)
+    assert [one.satisfied for one in small.checks] == [False, False]
+    assert not small.left_out
+    solved, curve = lb.nonassociated(both), capacity_curve(both, steps=3)
+    found = verification(both, solved, SITE, q=2.0, curve=curve, collapse_demand=SITE)
+    assert [one.name for one in found.checks] == ["linear, SLV"]
+    assert "one of many with this alpha0" in found.left_out
+    assert any("one of many with this alpha0" in one for one in found.remarks)
+    assert not verification(both, solved, SITE, q=2.0).left_out
+
+
+def test_many_mechanisms_are_seen_where_that_of_the_curve_moves_all_as_one():
+    """Two equal walls of one rotation: e* = 1, so that no linear check is less; a wall alone might be."""
+    model = walls_side_by_side(1.0, 1.0)
+    solved, curve = lb.bounds(model), capacity_curve(model, steps=3)
+    first, *rest = curve.points
+    same = replace(curve, points=(replace(first, result=solved), *rest))
+    found = verification(model, solved, SITE, q=2.0, curve=same)
+    assert found["e*"] == pytest.approx(1.0)
+    assert [one.name for one in found.checks] == ["linear, SLV"]
+    assert "one of many with this alpha0" in found.left_out
