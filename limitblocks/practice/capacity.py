@@ -186,7 +186,10 @@ def _advanced(
     there = held(assembly, control, point.result.displacement_rates, step, EVENT * assembly.size)
     if there is None:
         return None
-    at = point.displacement + float((there.control.point - control.point) @ control.direction)
+    way = float((there.control.point - control.point) @ control.direction)
+    if way < -EVENT * assembly.size and not there.snapped:
+        raise SolveError("its contacts come together only where the mechanism came from")
+    at = point.displacement + way
     goal, shift, loaded, result, pressed = answered(there.assembly)
     found = CapacityPoint(
         at, result.load_factor - shift, shift, loaded, result, there.changes, pressed, there.snapped

@@ -1,6 +1,7 @@
 """How far a step of a capacity curve goes: contacts that close, answers not found, falls, the end."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -168,3 +169,26 @@ def test_a_snap_without_rest_is_looked_for_once(monkeypatch):
     monkeypatch.setattr(capacity, "held", lost)
     curve = capacity_curve(lb.structures.block(JOINT, width=0.2, height=1.0))
     assert (curve.ended, asked) == ("no checked answer beyond 0 m: nowhere", [True])
+
+
+@pytest.mark.parametrize("longest", [0.05, 0.0])
+def test_a_step_that_jumps_back_is_halved(monkeypatch, longest):
+    """Contacts of longer steps come together at the start alone; H sin(atan(B / H)) is reached by halves."""
+    model, whole = lb.structures.block(JOINT, width=0.2, height=1.0), capacity.held
+    start: list[Any] = []
+
+    def held(assembly, control, rates, step, accuracy):
+        there = whole(assembly, control, rates, step, accuracy)
+        start.append(replace(there, assembly=assembly, control=control))
+        return start[0] if len(start) > 2 and step > longest else there
+
+    monkeypatch.setattr(capacity, "held", held)
+    top = next(corner for corner in model.free_blocks[0].vertices if corner[0] > 0 and corner[2] > 0.5)
+    curve = capacity_curve(model, control=("block 1", top), steps=3)
+    assert (np.diff(curve.displacements) > 0.0).all()
+    if longest:
+        assert curve.zero == pytest.approx(np.sin(np.arctan(0.2)), rel=1e-6)
+    else:
+        assert curve.zero is None
+        assert len(curve.points) == 3
+        assert "its contacts come together only where the mechanism came from" in curve.ended
