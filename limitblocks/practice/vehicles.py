@@ -77,7 +77,9 @@ class Deck:
         An axle acts evenly on the length ``contact + 2 spread depth`` of the extrados, straight down.
     y : float, optional
         Of the line, m; left out, the middle of the blocks that can move. A block that spans the width takes
-        the axle as if spread over all of it; of several across the deck those below the line carry all.
+        the axle at the line, with its moment about the middle: how much that eccentricity counts depends on
+        the joint, from nothing to most of the load factor; of several across the deck those below the line
+        carry all.
 
     Raises
     ------

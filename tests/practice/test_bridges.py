@@ -304,3 +304,21 @@ def test_fill_is_listed_as_fill_and_not_drawn(tmp_path):
 def test_misuse(settings, words):
     with pytest.raises(lb.ModelError, match=words):
         bridge(**settings)
+
+
+def test_a_stone_that_spans_the_width_feels_where_across_it_an_axle_is():
+    """The moment about X is -P y; how much it takes of the load factor is a matter of the joint."""
+    factors = {}
+    for joint in (lb.PointContact(0.6), lb.OrdunaLourenco(0.6)):
+        fill = Fill(height=0.3, unit_weight=18e3)
+        model = arch_bridge(joint, span=3.0, rise=0.75, thickness=0.3, voussoirs=11, fill=fill, depth=2.0)
+        road = max(block.vertices[:, 2].max() for block in model.free_blocks) + 0.3
+        middle = np.mean([block.centroid[1] for block in model.free_blocks])
+        for beside in (0.0, 0.9):
+            load = vehicle_load(model, Vehicle((60e3,)), Deck(road, y=middle + beside), 1.051)
+            forces = load.on(model.free_blocks)
+            assert forces[:, 2].sum() == pytest.approx(-60e3)
+            assert forces[:, 3].sum() == pytest.approx(-60e3 * beside, abs=1.0)
+            factors[type(joint), beside] = lb.bounds(replace(model, live=load)).lower
+    assert factors[lb.PointContact, 0.9] == pytest.approx(factors[lb.PointContact, 0.0], rel=1e-6)
+    assert factors[lb.OrdunaLourenco, 0.9] < 0.9 * factors[lb.OrdunaLourenco, 0.0]
