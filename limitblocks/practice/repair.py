@@ -15,6 +15,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError, SolverFailure, sequence_of
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
+from limitblocks.geometry.distance import distance
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Backfill, Tie
 from limitblocks.mechanics.loads import added_mass
@@ -152,7 +153,8 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
     Raises
     ------
     ModelError
-        If there is no place, the live load is not mass-proportional, or no masses reach the load factor.
+        If there is no place, one is far off its block, the live load is not mass-proportional, or no masses
+        reach the load factor.
     """
     checked_model(model)
     required = number(load_factor, "load factor", "", above=0.0)
@@ -162,6 +164,7 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
         raise ModelError(f"least_masses needs a live load with one mass-proportional term, once; {given}")
     if not (known := _places(places)):
         raise ModelError("least_masses needs at least one place")
+    _refuse_away(model, known)
     direction = pushes[0][1].direction
     problem, free = model.problem, model.free_blocks
     ones = [added_mass(block, at, weight=1.0) for block, at in known]
@@ -189,6 +192,16 @@ def _places(given: Any) -> list[tuple[str, Vector]]:
     except (TypeError, ValueError):
         said = "expected a block and a point each, such as [('wall', (0.5, 0.0, 5.0))]"
         raise ModelError(f"places are {given!r}, {said}") from None
+
+
+def _refuse_away(model: Model, places: list[tuple[str, Vector]]) -> None:
+    """ModelError for a place farther off its block than the block is long: what rests on it is nearer."""
+    blocks = {block.name: block for block in model.blocks}
+    for name, at in places:
+        if name in blocks and (away := distance(blocks[name], np.array(at))) > blocks[name].size:
+            raise ModelError(
+                f"place {coordinates(at)} is {away:.3g} m off block {name!r}, expected in or on it"
+            )
 
 
 def _needed(amounts: Array, problem: LimitProblem) -> Array:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from limitblocks.arrays import Array, reals
+from limitblocks.arrays import Array, real, reals
 from limitblocks.errors import ModelError, SolveError
 from limitblocks.shown import many
 from limitblocks.studies.results import FLOWS, unanswered
@@ -95,8 +95,15 @@ class SampledStudy(Rows):
 
         Of those that have one or fall: with the others it is at least share (1 - f) and at most
         share (1 - f) + f, f the share of these others.
+
+        Raises
+        ------
+        ModelError
+            If the demand is no number.
         """
-        return float((self._known() < demand).mean())
+        if np.isnan(least := real(demand)):
+            raise ModelError(f"demand is {demand!r}, expected a load factor")
+        return float((self._known() < least).mean())
 
     def mode_frequencies(self) -> dict[str, float]:
         """Return the share of each mode among the independent samples that have one, most frequent first."""

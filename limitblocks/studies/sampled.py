@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import LimitBlocksError, ModelError
-from limitblocks.joints.base import checked_count
+from limitblocks.errors import LimitBlocksError, ModelError, refuse_no_function
+from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.studies.pool import (
     ANALYSES,
@@ -89,13 +89,17 @@ def study(
     """
     if analysis not in ANALYSES:
         raise ModelError(f"analysis is {analysis!r}, expected {' or '.join(map(repr, ANALYSES))}")
-    checked_count("n", n, 1)
     checked_workers(workers)
-    _fits("the maker", signature(maker), (), parameters)
+    refuse_no_function(maker)
+    if "tolerance" in settings:
+        number(settings["tolerance"], "tolerance", "", above=0.0)
+    store = Path(file) if file is not None else None
+    if store is not None and store.is_dir():
+        raise ModelError(f"{store} is a folder; name a file in it")
     _fits(f"study, with {analysis}", signature(ANALYSES[analysis]), (None,), settings)
     names, values = sampled_values(parameters, n, sampler, seed, indices)
+    _fits("the maker", signature(maker), (), parameters)
     head = _head(parameters, values, sampler, seed, analysis, settings, indices)
-    store = Path(file) if file is not None else None
     done = _kept(store, head)
     tasks = [
         (k, maker, dict(zip(names, row, strict=True)), analysis, settings)

@@ -10,7 +10,7 @@ from scipy.stats import qmc
 
 from limitblocks.arrays import Array, reals
 from limitblocks.errors import ModelError
-from limitblocks.joints.base import checked_choice
+from limitblocks.joints.base import checked_choice, checked_count
 
 Sampler = Literal["sobol", "latin hypercube", "halton", "random"]
 
@@ -20,6 +20,11 @@ def sampled_values(
 ) -> tuple[tuple[str, ...], Array]:
     """Return names and values (rows, k): the samples, or A, B and the k matrices with one column of B."""
     checked_choice("sampler", sampler, get_args(Sampler))
+    checked_count("n", n, 2 if indices else 1)
+    checked_count("seed", seed, 0)
+    given: Any = parameters
+    if not isinstance(given, Mapping) or not all(isinstance(name, str) for name in given):
+        raise ModelError(f"parameters is {given!r}, expected intervals by name, {{'friction': (0.4, 0.7)}}")
     names, k = tuple(parameters), len(parameters)
     if not names:
         raise ModelError("a study needs at least one parameter")

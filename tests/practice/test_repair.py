@@ -264,3 +264,9 @@ def test_eurocode_and_housner():
 def test_misuse(make, words):
     with pytest.raises(lb.ModelError, match=words):
         make()
+
+
+def test_a_mass_far_off_its_block_is_refused():
+    """In mm in place of m, it would lean on an arm a thousand times as long."""
+    with pytest.raises(lb.ModelError, match=r"place .* is .* m off block 'wall', expected in or on it"):
+        least_masses(wall(), [("wall", (-250.0, 0, 0.5))], 0.3)

@@ -293,3 +293,39 @@ def test_a_saved_study_is_no_result_of_one_model(tmp_path):
     )
     with pytest.raises(lb.ModelError, match="holds a study, the load factors of many models"):
         lb.read_result(file)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        ({"seed": -1}, "seed is -1, expected a whole number of at least 0"),
+        ({"seed": 1.5}, r"seed is 1\.5, expected a whole number"),
+        ({"seed": None}, "seed is None, expected a whole number"),
+        ({"tolerance": -1.0}, r"tolerance is -1\.0, expected a finite number > 0"),
+        ({"indices": True, "n": 1}, "n is 1, expected a whole number of at least 2"),
+        ({"maker": None}, "maker is a NoneType, expected a function"),
+        ({"parameters": [("friction", (0.2, 0.6))]}, "parameters is .*, expected intervals by name"),
+        ({"parameters": {1: (0.2, 0.6)}}, "parameters is .*, expected intervals by name"),
+    ],
+)
+def test_what_is_wrong_in_a_study_is_told_before_its_rows(wrong, words):
+    rows = []
+    given = {"maker": block, "parameters": {"friction": (0.2, 0.6)}, "n": 2} | wrong
+    maker, parameters, n = (given.pop(key) for key in ("maker", "parameters", "n"))
+    with pytest.raises(lb.ModelError, match=words):
+        lb.study(maker, parameters, n, progress=lambda *done: rows.append(done), **given)
+    assert not rows
+
+
+def test_a_folder_is_no_file_of_a_study(tmp_path):
+    with pytest.raises(lb.ModelError, match="is a folder; name a file in it"):
+        lb.study(block, {"friction": (0.2, 0.6)}, 2, file=tmp_path)
+
+
+@pytest.mark.parametrize("demand", ["a", None, float("nan")])
+def test_a_demand_that_is_no_number_is_told(demand):
+    """The load factor is the friction, .2 to .6: all are below infinity."""
+    found = lb.study(block, {"friction": (0.2, 0.6)}, 2)
+    assert found.probability_below(float("inf")) == 1.0
+    with pytest.raises(lb.ModelError, match="expected a load factor"):
+        found.probability_below(demand)
