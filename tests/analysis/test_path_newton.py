@@ -8,6 +8,7 @@ from paths import start
 
 import limitblocks as lb
 from limitblocks import structures
+from limitblocks.analysis.nonassociated import path_newton
 from limitblocks.analysis.nonassociated.path_equations import (
     Barrier,
     Point,
@@ -81,11 +82,38 @@ def test_parts_are_inverted_without_row_exchanges_where_one_half_does_not_depend
     halves[..., :3, 3:] = random.normal(size=(2, 50, 3, 3)) * np.logspace(-9.0, 0.0, 50)[:, None, None]
     halves[1, :, :3] *= -1.0
     matrices = halves[..., order, :][..., order]
-    inverse, determinants = inverses(matrices)
+    inverse, determinants = inverses(matrices, np.zeros((2, 50, 6)))
     assert (determinants[0] == 1.0).all()
     assert (determinants[1] == -1.0).all()
     error = np.linalg.norm(inverse @ matrices - np.eye(6), axis=(2, 3))
     assert (error <= 1e-14 * np.linalg.cond(matrices)).all()
+
+
+@pytest.mark.parametrize("much", [268471804.0, 268469530.4])
+def test_a_pivot_that_rounding_took_is_that_of_the_compliance(much):
+    """Of a rotation that flows by 1e9 beside a compliance of 1e-8 nothing is left of the latter."""
+    f, least = np.array([1.0, -2.5]), np.array([1e-8, 1e-8])
+    matrix = much * np.outer(f, f) + np.diag(least)
+    assert np.linalg.det(matrix) <= 0.0  # in floating point; it is 19
+    inverse, determinants = inverses(matrix[None], least[None])
+    assert determinants[0] == 1.0
+    assert np.isfinite(inverse).all()
+    assert f @ inverse[0] @ f <= 1e-7  # soft along the flow, to rounding
+
+
+def test_directions_balance_where_joints_hardly_resist(monkeypatch):
+    """Refined for the flow alone a facade of 160 blocks (friction .4, out) stayed open."""
+    asked = []
+    monkeypatch.setattr(path_newton, "BALANCED", 0.0)  # which none is
+    monkeypatch.setattr(path_newton, "MOST", 3)
+    taken = Newton._taken
+    monkeypatch.setattr(Newton, "_taken", lambda self, d: asked.append(1) or taken(self, d))
+    flow, x0, weights = start(structures.wall(lb.OrdunaLourenco(0.6), length=0.8, courses=3))
+    path = path_from(flow, x0, weights, Barrier(), 1)
+    z, _ = centred(path)
+    z = replace(z, theta=0.5 * path_newton.REFINED)
+    Newton(path, z).solve(theta_slope(path, z))
+    assert len(asked) == 4  # once, and once a refinement
 
 
 def test_a_point_that_ran_away_is_refused_without_a_word_on_the_terminal(capfd):
