@@ -9,7 +9,7 @@ from limitblocks.analysis.nonassociated.path_equations import Equations, Path, P
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem.barrier import slope
 
-ROUNDED = 4.0 * float(np.finfo(float).eps)  # of what a pivot was: less is rounding
+ROUNDED = 4.0 * float(np.finfo(float).eps)  # of what a pivot was, where nothing is left of it
 REFINED = 1e-4  # theta below which directions are refined: without it paths stall near 1e-8
 # Flow that a direction may leave over its largest multiplier, loads over its largest stress, and the most
 # refinements. Elimination loses all where joints that flow carry 1e9 times their slacks and others 1e-9. For
@@ -139,13 +139,13 @@ def inverses(matrices: Array, least: Array) -> tuple[Array, Array]:
 
     By Gauss and Jordan without row exchanges, all at once, in a third of the time of LAPACK or less. It suits
     flows of constant direction: what opens, closes and bends depends on no slip, and both are definite.
-    A pivot is at least the compliance (..., k) of the joints that is on the diagonal; less is rounding.
+    A pivot that rounding took is that of the compliance (..., k) on the diagonal, or of the rounding.
     """
     a = np.ascontiguousarray(np.moveaxis(matrices, (-2, -1), (0, 1)))
     least = np.maximum(np.moveaxis(least, -1, 0), ROUNDED * np.abs(np.einsum("ii...->i...", a)))
     pivots = np.empty(a.shape[1:])
     for i in range(len(a)):
-        pivots[i] = a[i, i] = np.where(np.abs(a[i, i]) < least[i], least[i], a[i, i])
+        pivots[i] = a[i, i] = np.where(a[i, i] == 0.0, least[i], a[i, i])
         row = a[i] / pivots[i]
         row[i] = 1.0 / pivots[i]
         column = a[:, i].copy()
