@@ -65,7 +65,7 @@ def candidates(problem, chosen):
             yield form, program, handed_over(program.problem)
     rates = forms.without_multipliers(p) if "rates" in chosen else None
     if rates is not None:
-        yield "rates", None, rates.limit()
+        yield "rates", None, conic.compiled(rates.limit().problem)
 
 
 def handed_over(problem):

@@ -1,4 +1,4 @@
-"""The programs of one form, solved by Clarabel itself."""
+"""The programs of one form: compiled by cvxpy, solved by Clarabel itself."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import clarabel
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.conic import Conic
+from limitblocks.analysis.conic import Conic, compiled
 from limitblocks.analysis.forms import Rates, Stresses
-from limitblocks.analysis.programs import Solver
+from limitblocks.analysis.programs import Program, Solver
 from limitblocks.arrays import Array
 from limitblocks.problem import State
 
@@ -32,8 +32,9 @@ class Programs:
         """The state of the largest load factor, NaN where there is none."""
         return self.form.limit_state(*self.solved(self.form.limit(), solver))
 
-    def solved(self, program: Conic, solver: Solver) -> tuple[Array, Array]:
+    def solved(self, one: Program, solver: Solver) -> tuple[Array, Array]:
         """Variables and duals of a program of the form, NaN where there is no solution."""
+        program = compiled(one.problem)
         try:
             found = solution(program, {**self.form.equations, **solver.settings, **FIXED})
         except (ValueError, ArithmeticError) as error:

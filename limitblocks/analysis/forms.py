@@ -8,14 +8,15 @@ stresses: for them the static program is the smallest. Figures: docs/solvers.md.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
 
+import cvxpy as cp
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.conic import Conic
+from limitblocks.analysis.programs import Program, map_in_cone
 from limitblocks.analysis.scales import Scaled, with_rates_near_one
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem import Cones, LimitProblem, State, in_units
@@ -46,22 +47,25 @@ class Stresses:
             "iterative_refinement_enable": False,
         }
 
-    def within(self, loads: Array, most: float = np.inf, room: Array | float = 1.0) -> Conic:
+    def within(self, loads: Array, most: float = np.inf, room: Array | float = 1.0) -> Program:
         """Largest room t <= 1 of stresses that carry loads. Variable: t and x.
 
         Every row has t times the `room` (m,) of its interface, in its unit of force: F x + g - t margin in K.
         The rows are at most `most` in the mean.
         """
-        p, one = self.problem, self.problem.cones.identity
+        p, s = self.problem, self.problem.C.shape[0]
+        v, first = cp.Variable(1 + s), np.eye(1, 1 + s)
+        balance = sparse.hstack([sparse.csc_array((len(loads), 1)), p.C.T], format="csr")[self.balanced]
         margin = p.margin * np.broadcast_to(room, len(p.force))[p.problem.row_interface]
-        blocks: list[list[Any]] = [[None, p.C[:, self.balanced].T], [np.ones((1, 1)), None]]
-        bounds = [1.0]
+        rows = sparse.hstack([sparse.csr_array(-margin[:, None]), p.F], format="csr")
+        inside = map_in_cone(rows, v, p.cones, p.g if p.g.any() else None)
+        bounded = [sparse.csr_array(-first) @ v + np.ones(1) >= 0.0]
         if np.isfinite(most):
-            blocks.append([None, (one @ p.F)[None]])
-            bounds.append(float(most * p.cones.degree - one @ p.g))
-        A = sparse.csc_array(sparse.block_array([*blocks, [margin[:, None], -p.F]]))
-        cones = replace(p.cones, linear=p.cones.linear + len(bounds))
-        return Conic(-np.eye(1, A.shape[1])[0], A, np.concatenate([loads[self.balanced], bounds, p.g]), cones)
+            one = p.cones.identity
+            left = np.array([most * p.cones.degree - one @ p.g])
+            bounded.append(sparse.csr_array(-np.append(0.0, one @ p.F)[None]) @ v + left >= 0.0)
+        constraints = [balance @ v == loads[self.balanced], *bounded, *inside]
+        return Program(cp.Problem(cp.Minimize(-first[0] @ v), constraints), (v,))
 
     @cached_property
     def balanced(self) -> Indices:
@@ -70,19 +74,20 @@ class Stresses:
         moved = np.bincount(p.C.indices, minlength=len(p.dead)) > 0
         return np.flatnonzero(moved | (p.dead != 0.0) | (p.live != 0.0))
 
-    def limit(self) -> Conic:
+    def limit(self) -> Program:
         """Largest load factor in equilibrium within the yield set. Variable: load factor and x."""
         p, equations = self.problem, self.balanced
-        s, C, F, pushed = p.C.shape[0], p.C, p.F, np.flatnonzero(p.live)
+        s, F, pushed = p.C.shape[0], p.F, np.flatnonzero(p.live)
+        v, least = cp.Variable(1 + s), -np.eye(1, 1 + s)[0]
+        data, equation = np.append(-p.live[pushed], p.C.data), np.append(pushed, p.C.indices)
+        start = np.concatenate([[0], len(pushed) + p.C.indptr])  # columns of C^T are the rows of C
         place = np.zeros(len(p.dead), dtype=np.int32)
         place[equations] = np.arange(len(equations))
-        # entry by entry, in a third of the time of blocks; the columns of C^T are the rows of C
-        equation, start = np.append(pushed, C.indices), np.append(0, len(pushed) + C.indptr)
-        columns: Any = (np.append(-p.live[pushed], C.data), place[equation], start)
-        balance = sparse.csc_array(columns, shape=(len(equations), 1 + s))
-        rows = sparse.csr_array((-F.data, F.indices + 1, F.indptr), shape=(len(p.g), 1 + s))
-        A = sparse.csc_array(sparse.vstack([balance, rows.tocsc()], format="csc"))
-        return Conic(-np.eye(1, 1 + s)[0], A, np.append(p.dead[equations], p.g), p.cones)
+        columns: Any = (data, place[equation], start)
+        balance = sparse.csc_array(columns, shape=(len(equations), 1 + s)) @ v == p.dead[equations]
+        rows = sparse.csr_array((F.data, F.indices + 1, F.indptr), shape=(len(p.g), 1 + s))
+        inside = map_in_cone(rows, v, p.cones, p.g if p.g.any() else None)
+        return Program(cp.Problem(cp.Minimize(least @ v), [balance, *inside]), (v,))
 
     def limit_state(self, v: Array, w: Array) -> State:
         """The state of a solution of `limit` and its duals."""
@@ -124,11 +129,11 @@ class Rates:
         cones = self.problem.cones
         return Cones(cones.linear - len(self.dropped), cones.second_order)
 
-    def limit(self) -> Conic:
+    def limit(self) -> Program:
         """Least load factor over all mechanisms. Variable: u."""
-        p = self.problem
-        A = sparse.csc_array(sparse.vstack([sparse.csr_array(p.live[None]), -self.B]))
-        return Conic(-p.dead, A, np.append(1.0, np.zeros(len(self.kept))), self.cones)
+        p, u = self.problem, cp.Variable(self.B.shape[1])
+        constraints = [p.live @ u == 1, *map_in_cone(self.B, u, self.cones)]
+        return Program(cp.Problem(cp.Minimize(-p.dead @ u), constraints), (u,))
 
     def limit_state(self, u: Array, w: Array) -> State:
         """The state of a solution of `limit` and its duals."""

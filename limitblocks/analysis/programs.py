@@ -11,7 +11,6 @@ import cvxpy as cp
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.conic import Conic
 from limitblocks.analysis.scales import Scaled
 from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.measure import Measure
@@ -125,14 +124,6 @@ def falling_program(problem: LimitProblem, loads: Array) -> Program:
     return Program(cp.Problem(cp.Maximize(surplus), constraints), (u, y))
 
 
-def built(conic: Conic) -> Program:
-    """The linear program of given matrices. Variable: v."""
-    v, zero = cp.Variable(len(conic.c)), len(conic.b) - conic.cones.height
-    A, b = sparse.csr_array(conic.A), conic.b
-    constraints = [A[:zero] @ v == b[:zero], *map_in_cone(-A[zero:], v, conic.cones, b[zero:])]
-    return Program(cp.Problem(cp.Minimize(conic.c @ v), constraints), (v,))
-
-
 def jamming_program(problem: Scaled) -> Program:
     """Stress state that balances the dead load and can grow without yielding. Variable: x."""
     x = cp.Variable(problem.C.shape[0])
@@ -152,11 +143,14 @@ def in_cone(rows: cp.Expression, cones: Cones) -> list[cp.Constraint]:
     return constraints
 
 
-def map_in_cone(A: sparse.csr_array, v: cp.Variable, cones: Cones, b: Array) -> list[cp.Constraint]:
-    """`A v + b` in K: cvxpy compiles rows taken from numbers a third faster."""
+def map_in_cone(
+    A: sparse.csr_array, v: cp.Variable, cones: Cones, b: Array | None = None
+) -> list[cp.Constraint]:
+    """`A v + b` in K, b zero if left out: cvxpy compiles rows taken from numbers a third faster."""
 
     def taken(rows: slice | Indices) -> cp.Expression:
-        return A[rows] @ v + b[rows]
+        product = (A[rows] if cones.second_order else A) @ v
+        return product if b is None else product + b[rows]
 
     constraints: list[cp.Constraint] = [taken(slice(cones.linear)) >= 0] if cones.linear else []
     for places in cones.groups:

@@ -14,7 +14,7 @@ from limitblocks.analysis.forms import Stresses
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.one_thread import one_thread
-from limitblocks.analysis.programs import ROUNDS, built, solved, solvers
+from limitblocks.analysis.programs import ROUNDS, solved, solvers
 from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved
 from limitblocks.analysis.unstressed import joint_compliance, may_arise, not_held
 from limitblocks.arrays import Array, read_only
@@ -205,7 +205,7 @@ def _states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, 
                 break
             loads = (problem.dead + load_factor * problem.live) / measured.equation
             room = _own_loads(problem) / measured.force if k == 0 else 1.0
-            (v,) = solved(built(Stresses(measured).within(loads, most, room)), solver).values
+            (v,) = solved(Stresses(measured).within(loads, most, room), solver).values
             x, found = v[1:], np.isfinite(v).all()
             x = measured.stress * (balanced(measured, loads, x) if found else x)
             yield x, Residuals(static_residuals(problem, load_factor, x)).worst

@@ -13,10 +13,11 @@ from stones import leaning_walls, model_of
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis import certified, forms, limit_state, repair, splitting
+from limitblocks.analysis.conic import compiled
 from limitblocks.analysis.direct import FIXED, Programs, solution
 from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.limit_state import programs_of
-from limitblocks.analysis.programs import DIRECT, PLANAR, built, solved, static_program
+from limitblocks.analysis.programs import DIRECT, PLANAR, solved, static_program
 from limitblocks.analysis.scales import scaled
 from limitblocks.problem import Cones
 
@@ -44,8 +45,9 @@ def test_a_form_has_the_answer_of_the_static_program(joint):
 @pytest.mark.parametrize("direction", [(1.0, 0.0, 0.0), (1.0, 1.0, 0.0)])  # in its plane, and in space
 def test_matrices_are_those_that_cvxpy_hands_over_to_clarabel(joint, direction):
     model = structures.wall(joint, length=1.2, courses=4, direction=direction)
-    here = programs_of(model.problem)[0].form.limit()
-    data, _, _ = built(here).problem.get_problem_data(cp.CLARABEL)
+    program = programs_of(model.problem)[0].form.limit().problem
+    data, _, _ = program.get_problem_data(cp.CLARABEL)
+    here = compiled(program)
     assert here.cones == Cones.of_sizes(data["dims"].nonneg, data["dims"].soc)
     assert abs(here.A - data["A"]).max() == 0.0
     assert here.A.nnz == data["A"].nnz
@@ -144,7 +146,7 @@ def test_few_walls_in_a_plane_stall():
     for courses, length, friction in product((10, 14), (10, 14, 18, 26), (0.4, 0.5)):
         joint = lb.OrdunaLourenco(friction, slip="paper")
         form = programs_of(in_plane_of(joint, courses, length).problem)[0].form
-        program, chosen = form.limit(), {**form.equations, **PLANAR.settings, **FIXED}
+        program, chosen = compiled(form.limit().problem), {**form.equations, **PLANAR.settings, **FIXED}
         assert chosen["dynamic_regularization_delta"] == 1e-6
         for pivot in stalled:
             found = solution(program, chosen | {"dynamic_regularization_delta": pivot})

@@ -9,6 +9,7 @@ from stones import leaning_walls
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis import splitting
+from limitblocks.analysis.conic import compiled
 from limitblocks.analysis.direct import FIXED, Programs, solution
 from limitblocks.analysis.forms import Rates, Stresses, form_of, without_multipliers
 from limitblocks.analysis.in_plane import in_plane
@@ -70,7 +71,7 @@ def test_rates_near_one_take_fewer_iterations():
     p = structures.wall(lb.PointContact(0.6), length=4.0, courses=12, direction=(1.0, 1.0, 0.0)).problem
     taken = []
     for form in (form_of(p), without_multipliers(scaled(p))):
-        found = solution(form.limit(), {**form.equations, **DIRECT.settings, **FIXED})
+        found = solution(compiled(form.limit().problem), {**form.equations, **DIRECT.settings, **FIXED})
         assert str(found.status) == "Solved"
         taken.append(found.iterations)
     assert taken[0] < taken[1]
@@ -89,7 +90,7 @@ def test_multipliers_follow_any_rates_and_share_the_room():
 def test_equations_without_a_number_are_not_given_to_the_solver():
     """In the plane three of six; loads that no stress balances stay: nothing carries them."""
     p = in_plane(structures.wall(lb.OrdunaLourenco(0.6), length=1.2, courses=4).problem).problem
-    program = Stresses(scaled(p)).limit()
+    program = compiled(Stresses(scaled(p)).limit().problem)
     assert len(program.b) - program.cones.height == 3 * len(p.blocks)
     beside = np.zeros(len(p.dead))
     beside[np.flatnonzero(np.bincount(p.C.indices, minlength=len(beside)) == 0)[0]] = 1.0
