@@ -8,7 +8,6 @@ from paths import start
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis.nonassociated import path_newton
 from limitblocks.analysis.nonassociated.path_equations import (
     Barrier,
     Point,
@@ -98,21 +97,6 @@ def test_a_pivot_that_rounding_took_is_that_of_the_compliance():
     assert determinants[0] == 1.0
     assert np.isfinite(inverse).all()
     assert f @ inverse[0] @ f <= 1e-7  # soft along the flow, to rounding
-
-
-def test_directions_balance_where_joints_hardly_resist(monkeypatch):
-    """Refined for the flow alone a facade of 160 blocks (friction .4, out) stayed open."""
-    asked = []
-    monkeypatch.setattr(path_newton, "BALANCED", 0.0)  # which none is
-    monkeypatch.setattr(path_newton, "MOST", 3)
-    taken = Newton._taken
-    monkeypatch.setattr(Newton, "_taken", lambda self, d: asked.append(1) or taken(self, d))
-    flow, x0, weights = start(structures.wall(lb.OrdunaLourenco(0.6), length=0.8, courses=3))
-    path = path_from(flow, x0, weights, Barrier(), 1)
-    z, _ = centred(path)
-    z = replace(z, theta=0.5 * path_newton.REFINED)
-    Newton(path, z).solve(theta_slope(path, z))
-    assert len(asked) == 4  # once, and once a refinement
 
 
 def test_a_point_that_ran_away_is_refused_without_a_word_on_the_terminal(capfd):
