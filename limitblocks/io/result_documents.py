@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import ConfigDict, Discriminator, Field, Tag
 
 from limitblocks.io.block_documents import Document, Many, Number, Version
 from limitblocks.problem import ASSOCIATED, Turning
@@ -19,6 +19,15 @@ def _form(rows: Any) -> str:
 Rows = Annotated[
     Annotated[Many[Six], Tag("in order")] | Annotated[dict[str, Six], Tag("by name")], Discriminator(_form)
 ]
+
+
+class VersionedDocument(Document):
+    """What has a version, whatever else there is."""
+
+    model_config = ConfigDict(extra="ignore")
+
+    schema_version: Version = 1
+    """Version of this file format."""
 
 
 class StateDocument(Document):

@@ -72,7 +72,9 @@ def read_result(file: str | Path, model: Model | None = None) -> Any:
         if made is not None:
             _refuse_copies(data, strict_json.finite(made.to_dict()))
         if kind and not kind.document:  # no claimed solution
-            _refuse_later(data.get("schema_version", RESULT_SCHEMA_VERSION))
+            from limitblocks.io.result_documents import VersionedDocument  # here, as pydantic takes its time
+
+            faults.validated(VersionedDocument, text, data)
             _refuse_other(model, made.digest, data.get("versions"))
             return made
         claim = _claim(_document(text, data, lacks), model, data.get("versions"))
@@ -128,11 +130,6 @@ def _refuse_copies(said: Any, made: Any, place: str = "") -> None:
         return
     elif said != made and not (isinstance(said, float) and isinstance(made, float) and isclose(said, made)):
         raise ModelError(f"{place} is {said!r}, but by what else the file says it is {made!r}")
-
-
-def _refuse_later(version: Any) -> None:
-    if type(version) is not int or version != RESULT_SCHEMA_VERSION:  # True equals 1
-        raise ModelError(f"schema_version: expected {RESULT_SCHEMA_VERSION}, not {version!r}")
 
 
 def _refuse_other(model: Model | None, digest: str, stated: Any) -> None:

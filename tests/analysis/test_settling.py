@@ -111,6 +111,7 @@ def test_a_load_factor_that_stands_still_ends_a_path(moved_corner, change, ends)
     assert still.stands_still(last, 50 + settling.SOON) is ends is not still.changes
     later = 50 + settling.SOON + settling.LATER  # it changed once, and then no more
     assert ends or not still.stands_still(last, later - 1)
+    assert ends or not still.stands_still(last, 50 + settling.SOON + 65)  # as long as it stood in a facade
     assert still.stands_still(last, later)
     assert not still.changes
 
