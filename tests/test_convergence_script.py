@@ -6,6 +6,7 @@ import pytest
 import scripts_as_modules
 
 import limitblocks as lb
+from matrix import Case
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +40,7 @@ def test_a_case_is_stopped_after_seconds_or_times_its_bounds(script, limit, time
     monkeypatch.setattr(lb, "bounds", lambda _: None)
     monkeypatch.setattr(lb, "nonassociated", pressed)
     joint = lb.PointContact(0.6)
-    case = script.Case("block", joint, "along", lb.structures.block(joint, width=1.0, height=1.0))
+    case = Case("block", joint, "along", lb.structures.block(joint, width=1.0, height=1.0))
     row, good, ratio = script.limited(case, seconds=limit, times=times)
     assert given == limits
     assert (row[-1], good, ratio) == ("STOPPED", False, None)
