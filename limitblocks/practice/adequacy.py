@@ -7,7 +7,7 @@ EN 1996-1-1:2005, Section 2.4.3 (gamma_M of masonry); EN 1997-1:2004, Table A.4 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import fields, replace
 
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
@@ -18,7 +18,7 @@ from limitblocks.joints import Dowel, Guide, Joint, Tie
 from limitblocks.joints.base import STRENGTHS, joint_of, refuse_nameless_strength, stress_words
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.adequacy_result import Adequacy, DesignValue
-from limitblocks.practice.partial_factors import PartialFactors
+from limitblocks.practice.partial_factors import DesignModel, PartialFactors
 from limitblocks.shown import many
 
 FRICTION = "friction"
@@ -76,18 +76,26 @@ def _limited(model: Model) -> Bounds | None:
 def design_model(model: Model, factors: PartialFactors) -> Model:
     """Return the model with design loads and design strengths; see :func:`adequacy`.
 
+    What puts another live load in the place of its own, as :func:`~limitblocks.practice.worst_position`,
+    multiplies that by gamma_Q. A model file does not keep this.
+
     Raises
     ------
     ModelError
-        If a joint has no strengths that the factors divide, a tie, a dowel or passive fill has no gamma_S, or
-        the design prestress of a tie is not below its design strength.
+        If the model is a design model already, a joint has no strengths that the factors divide, a tie, a
+        dowel or passive fill has no gamma_S, or the design prestress of a tie is not below its design
+        strength.
     """
     checked_model(model)
     refuse_kind(factors, PartialFactors, "factors")
+    if isinstance(model, DesignModel):
+        raise ModelError("the model has its design values already; expected one with characteristic values")
     made = {joint: _design(joint, factors) for joint in _joints(model)}
     interfaces = [replace(one, joint=made[one.joint]) for one in model.interfaces]  # type: ignore[index]
     dead, live = factors.gamma_G * model.dead, factors.gamma_Q * model.live
-    return replace(model, interfaces=interfaces, dead=dead, live=live)
+    given = {one.name: getattr(model, one.name) for one in fields(model)}
+    design = given | {"interfaces": interfaces, "dead": dead, "live": live}
+    return DesignModel(**design, gamma_Q=factors.gamma_Q)
 
 
 def _design(joint: Joint, factors: PartialFactors) -> Joint:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from limitblocks.errors import ModelError
 from limitblocks.joints import Dowel, Joint, Tie
+from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads.load import number
+from limitblocks.model import Model
 
 MOST = 10.0  # several times what codes have: more is a slip, such as per cent
 
@@ -72,3 +74,26 @@ class PartialFactors:
                 "strength"
             )
         return "gamma_S", self.gamma_S
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DesignModel(Model):
+    """A model with design loads and strengths; a live load that takes the place of its own has gamma_Q, too.
+
+    Parameters
+    ----------
+    gamma_Q : float
+        What its live load was multiplied by.
+    """
+
+    gamma_Q: float = 1.0
+
+
+def live_factor(model: Model) -> float:
+    """Return what multiplies a characteristic live load in a model: gamma_Q of a design model, else 1."""
+    return model.gamma_Q if isinstance(model, DesignModel) else 1.0
+
+
+def with_live(model: Model, live: Load) -> Model:
+    """Return a model with another characteristic live load; a design model multiplies it by gamma_Q."""
+    return replace(model, live=model.gamma_Q * live if isinstance(model, DesignModel) else live)

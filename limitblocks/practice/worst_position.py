@@ -17,6 +17,7 @@ from limitblocks.mechanics.loads.load import place
 from limitblocks.model import Model
 from limitblocks.practice.envelope import Found, search
 from limitblocks.practice.influence import line_of
+from limitblocks.practice.partial_factors import live_factor
 from limitblocks.practice.vehicles import Deck, Vehicle, vehicle_load
 from limitblocks.shown import Result, coordinate, kept
 
@@ -39,6 +40,7 @@ class WorstPosition(Result):
     model : Model
         There.
     vehicle : Vehicle
+        Its axles times gamma_Q, where a design model was given.
     deck : Deck
     digest : str
         SHA-256 of the model that was given.
@@ -69,11 +71,13 @@ class WorstPosition(Result):
     def __str__(self) -> str:
         acting = -float(self.model.live.on(self.model.free_blocks)[:, 2].sum())
         total = sum(self.vehicle.axles)
+        gamma_Q = live_factor(self.model)
+        of = f" of the axles times gamma_Q {gamma_Q:g}" * (gamma_Q != 1.0)
         beyond = f"; {acting / 1e3:.4g} of {total / 1e3:.4g} kN of axles stand on the blocks"
         beyond = beyond * (acting < total * (1.0 - 1e-6))
         return self._line(
             f"worst position x = {coordinate(self.position)} m of {len(self.positions)} tried: associated "
-            f"load factor {self.bounds.lower:.6g}{beyond}",
+            f"load factor {self.bounds.lower:.6g}{of}{beyond}",
             *self.bounds.remarks,
             *(() if self.complete else (STOPPED,)),
         )
@@ -101,7 +105,7 @@ def worst_position(
     Parameters
     ----------
     model : Model
-        Structure, its live load is replaced.
+        Structure, its live load is replaced; in a design model, by the vehicle times gamma_Q.
     vehicle : Vehicle
         Moves from ``between[0]`` to ``between[1]``, X of its first axle, m.
     deck : Deck
@@ -122,6 +126,7 @@ def worst_position(
     refuse_kind(deck, Deck, "deck")
     checked_count("positions", positions, 3)
     deck = deck.on(model)
+    vehicle = replace(vehicle, axles=tuple(live_factor(model) * load for load in vehicle.axles))
     low, high = _ends(model, vehicle, between, positions)
     tried: Found = {}
 

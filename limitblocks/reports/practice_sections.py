@@ -10,6 +10,7 @@ from limitblocks.drawing.picture import mechanism_picture
 from limitblocks.mechanics.loads.load import triple
 from limitblocks.model import Model
 from limitblocks.practice import Repair, Settlement, WorstPosition
+from limitblocks.practice.partial_factors import live_factor
 from limitblocks.practice.worst_position import STOPPED
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Figure, Part, Table
@@ -144,10 +145,12 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
 def _vehicle_rows(found: WorstPosition) -> tuple[tuple[str, str, str], ...]:
     vehicle, deck = found.vehicle, found.deck
     loads = ", ".join(f"{load / 1e3:.6g}" for load in vehicle.axles)
+    gamma_Q = live_factor(found.model)
+    one = f"at load factor one{f', times gamma_Q {gamma_Q:g}' * (gamma_Q != 1.0)}"
     places = ", ".join(f"{distance:.6g}" for distance in vehicle.distances)
     spread = f"axles spread {deck.spread:g} m to each side along the deck per m of fill"
     return (
-        ("Axles", f"{loads} kN", f"at load factor one, {places} m along X from the first axle"),
+        ("Axles", f"{loads} kN", f"{one}, {places} m along X from the first axle"),
         ("Contact of a wheel", f"{vehicle.contact:g} m", "along the deck"),
         ("Road", f"Z = {coordinate(deck.level)} m", f"along y = {deck.y:g} m; {spread}"),
     )

@@ -14,6 +14,7 @@ from limitblocks.errors import ModelError, refuse_no_function
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import compass, top_force, turned, unit_vector
 from limitblocks.model import Model, checked_model
+from limitblocks.practice.partial_factors import with_live
 from limitblocks.studies.pool import FAILURES, Analysis, Outcome, Progress, analyse_all, failed
 from limitblocks.studies.results import Directions, MovingLoad, Sweep
 
@@ -43,7 +44,7 @@ def directions(
         length.
     live : callable, optional
         Gives the live load of a direction (a unit vector); needed where the model's live load is not
-        mass-proportional.
+        mass-proportional. In a design model it is multiplied by gamma_Q.
     analysis : {"bounds", "nonassociated"}
         Which load factor.
     workers : int or None
@@ -65,10 +66,15 @@ def directions(
         else _table(directions, 3, "directions")
     )
     units = [unit_vector(direction, "direction") for direction in given.tolist()]
-    loads = live or (lambda direction: turned(model.live, direction))
+
+    def pushed(direction: tuple[float, float, float]) -> Model:
+        if live is None:
+            return replace(model, live=turned(model.live, direction))
+        return with_live(model, live(direction))
+
     if live is None:
         turned(model.live, (1.0, 0.0, 0.0))  # a live load that cannot be turned is no matter of one row
-    models = _made(lambda direction: replace(model, live=loads(direction)), units)
+    models = _made(pushed, units)
     outcomes = analyse_all(models, analysis, settings, workers, progress)
     convex = live is None and analysis == "bounds"
     return Directions(*_columns(analysis, outcomes), directions=read_only(units), convex=convex)
@@ -91,7 +97,7 @@ def moving_load(
     Parameters
     ----------
     model : Model
-        The structure; its live load is replaced by the moving one.
+        The structure; its live load is replaced by the moving one, in a design model times gamma_Q.
     load : sequence of float or callable
         Force (N, global axes) on top of the highest free block at the place, see
         :func:`limitblocks.loads.top_force`; or a function of the place that gives the load, such as several
@@ -112,7 +118,7 @@ def moving_load(
     at = load if callable(load) else (lambda place: top_force(load, place))
     if not callable(load):
         top_force(load, (0.0, 0.0))  # a wrong force is no matter of one row
-    models = _made(lambda place: replace(model, live=at(place)), places)
+    models = _made(lambda place: with_live(model, at(place)), places)
     outcomes = analyse_all(models, analysis, settings, workers, progress)
     return MovingLoad(*_columns(analysis, outcomes), positions=read_only(given))
 

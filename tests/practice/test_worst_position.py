@@ -9,7 +9,10 @@ import pytest
 import limitblocks as lb
 from limitblocks.practice import (
     Deck,
+    PartialFactors,
     Vehicle,
+    adequacy,
+    design_model,
     vehicle_load,
     worst_position,
 )
@@ -120,3 +123,26 @@ def test_axle_on_the_approach_puts_nothing_on_the_bridge():
     assert alone.on(model.free_blocks)[0, 2] == pytest.approx(-10e3)
     with pytest.raises(lb.ModelError, match="stands on a free block"):
         vehicle_load(model, Vehicle((10e3,)), Deck(level=0.5), 40.0)
+
+
+def test_a_vehicle_on_a_design_model_has_gamma_q():
+    """The overhang tips about x = 3: gamma_Q P (x - 3) = gamma_G W (3 - 2)."""
+    factors = PartialFactors(gamma_G=0.9, gamma_Q=1.5, gamma_M=1.0)
+    model, vehicle, deck = design_model(beam(), factors), Vehicle((10e3, 1e3), (0.0, 9.0)), Deck(level=0.5)
+    found = worst_position(model, replace(vehicle, contact=1e-3), deck, (3.2, 3.95), positions=4)
+    expected = 0.9 * 40e3 * (3.0 - 2.0) / (1.5 * 10e3 * (found.position - 3.0))
+    assert found.bounds.lower == pytest.approx(expected, rel=1e-6)
+    assert found.position == pytest.approx(3.95, abs=1e-3)
+    assert "axles times gamma_Q 1.5; 15 of 16.5 kN" in str(found)
+    assert "times gamma_Q 1.5" in lb.report(model, found).text
+    moved = lb.studies.moving_load(model, (0, 0, -10e3), [(3.95, 0.0)])
+    assert moved.load_factors == pytest.approx(0.9 * 40e3 / (1.5 * 10e3 * 0.95), rel=1e-6)
+    turned = lb.studies.directions(model, [(0, 0, -1)], live=lambda to: force(to, 3.95))
+    assert turned.load_factors == pytest.approx(0.9 * 40e3 / (1.5 * 10e3 * 0.95), rel=1e-6)
+    with pytest.raises(lb.ModelError, match="design values already"):
+        adequacy(found.model, factors)
+
+
+def force(direction, x):
+    """10 kN along a direction at a place of the overhang."""
+    return lb.loads.force("beam", 10e3 * np.array(direction), (x, 0, 0.5))
