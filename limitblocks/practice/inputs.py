@@ -15,13 +15,13 @@ from limitblocks.joints import Tie
 from limitblocks.mechanics.loads import Fill
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import CapacityCurve
-from limitblocks.practice.spectra import G, Place, Spectrum
+from limitblocks.practice.spectra import Place, Spectrum
 from limitblocks.practice.verification_result import Quantity
 from limitblocks.problem import Flow, State, turning_of
 
 LC1 = 1.35  # confidence factor of the lowest level of knowledge, Table C8.5.IV
 PLANE = 1e-3  # of the largest velocity: less than this across the plane is none
-ALIKE = 1e-3  # of the live work, or of a0*: less of a difference is none
+ALIKE = 1e-3  # of the live work, or of e*: less of a difference is none
 GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 ROOM = 1e-3  # of the associated load factor: without sliding an answer lies below it by rounding
 
@@ -148,21 +148,18 @@ def other_answers(collapse: Any) -> tuple[str, ...]:
     )
 
 
-def other_mechanisms(
-    model: Model, collapse: Any, alpha: float, a0: float, confidence: float, *, curve: bool
-) -> tuple[str, ...]:
-    """Return that other mechanisms have the same alpha0, and how low their a0* may be.
+def other_mechanisms(model: Model, collapse: Any, share: float, *, curve: bool) -> tuple[str, ...]:
+    """Return that other mechanisms have the same alpha0, so that e* is taken as 1.
 
-    By Cauchy and Schwarz' inequality their e* is at most 1. Where this one has no less they matter to a
-    `curve` alone: the displacement of another may be less.
+    By Cauchy and Schwarz' inequality their e* is at most 1. Where the `share` of this one is no less they
+    matter to a `curve` alone: the displacement of another may be less.
     """
-    least = alpha * G / confidence
-    if least >= (1.0 - ALIKE) * a0 and not curve:
+    if share >= 1.0 - ALIKE and not curve:
         return ()
     problem = model.problem
     free = [block.name not in model.supports for block in model.blocks]
     rates = collapse.displacement_rates[free].ravel()
-    si = State(alpha, collapse.generalised_stresses, rates, collapse.flow_multipliers)
+    si = State(float(collapse.load_factor), collapse.generalised_stresses, rates, collapse.flow_multipliers)
     flow = Flow(problem, collapse.dilatancy, turning_of(collapse.turning))
     shares = np.repeat(np.arange(len(problem.blocks)) * GOLDEN % 1.0, 6)  # numbers without a pattern
     change = change_of_mechanism(flow, problem.dimensionless(si), shares * problem.live)
@@ -170,7 +167,7 @@ def other_mechanisms(
         return ()
     known = "the mechanism is one of many" if change else "the mechanism may be one of many (not found)"
     return (
-        f"{known} with this alpha0, in which the blocks move in other proportions: their e* is up to 1, their"
-        f" a0* down to {least:.4g} m/s2, and the ratios of the linear checks in proportion; that is safe, or"
-        " verify each part that moves by itself",
+        f"{known} with this alpha0, in which the blocks move in other proportions: e* (here {share:.4g}) is"
+        " taken as 1, so that none of them has a smaller a0*; that is safe, or verify each part that moves by"
+        " itself",
     )

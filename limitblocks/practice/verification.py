@@ -34,6 +34,7 @@ from limitblocks.practice.spectra import MOST, MOST_DAMPING, Floor, G, Place, Sp
 from limitblocks.practice.verification_result import MANY, Inequality, Quantity, Verification, steps
 
 SIMPLIFIED = "C8.7.1.2.1.7"
+SHARE = "(sum P dx)^2 / (sum P  sum P dx^2)"
 MOST_FC = 2.0  # the code has 1 to 1.35
 MOST_GROUND = 2.0 * G  # m/s2 of the ground: more is in another unit
 
@@ -96,9 +97,11 @@ def verification(
     (a block that is lifted only does work in [C8.7.1.1] and is not in e*, which is safe):
     e* = (sum P delta)^2 / (sum P sum P delta^2) [C8.7.1.5], a0* = alpha0 g / (e* FC) [C8.7.1.8],
     d = d_C sum P delta^2 / (delta_C sum P delta) [C8.7.1.4]; at the ground a0* >= a_g S / q, free to vibrate
-    a0* >= S_e(T_0) / q [C8.7.1.9]. The acceleration at .4 and .6 of d0* is taken from the capacity curve
-    [C8.7.1.3] and, beside it, from the straight line between a0* and d0*; the larger demand of both counts.
-    The non-linear checks compare ground accelerations, a_g,SLV no less than that which sets it off.
+    a0* >= S_e(T_0) / q [C8.7.1.9]. Where several mechanisms have this alpha0, e* is 1, the most that it can
+    be (Cauchy and Schwarz): none of them has a smaller a0*. The acceleration at .4 and .6 of d0* is taken
+    from the capacity curve [C8.7.1.3] and, beside it, from the straight line between a0* and d0*; the larger
+    demand of both counts. The non-linear checks compare ground accelerations, a_g,SLV no less than that
+    which sets it off.
     """
     collapse = collapse_of(checked_model(model), result)
     refuse_unproven(model, result)
@@ -110,7 +113,10 @@ def verification(
     masses, scale = moving_masses(model, collapse.displacement_rates)
     alpha = float(result.load_factor)  # type: ignore[attr-defined] # bounds have none
     flow = flow_words(collapse.dilatancy)  # type: ignore[attr-defined] # of every state
-    sums, a0, e = _oscillator(masses, alpha, flow, confidence)
+    rates = scale * collapse.displacement_rates
+    ratio = per_control(model, alpha, rates, curve, masses) if curve else 0.0
+    others = other_mechanisms(model, collapse, _participation(masses), curve=curve is not None)
+    sums, a0, e = _oscillator(masses, alpha, flow, confidence, many=bool(others))
     found = steps("activation", sums)
     found += steps("demand", [*given(demand), *carried(place, demand)])
     set_off = ground_acceleration(demand, place.acceleration, a0)
@@ -120,9 +126,6 @@ def verification(
         found += steps("demand", given(damage_demand, "SLD"))
         needed = place.acceleration(damage_demand)
         checks.append(Inequality("linear, SLD", a0, needed, "m/s2", _equation(place)))
-    rates = scale * collapse.displacement_rates
-    ratio = per_control(model, alpha, rates, curve, masses) if curve else 0.0
-    others = other_mechanisms(model, collapse, alpha, a0, confidence, curve=curve is not None)
     if curve and not others:
         scales = (ratio, G / (e * confidence))
         more, non_linear = _non_linear(curve, scales, (demand, collapse_demand), damping, place, set_off)
@@ -159,14 +162,26 @@ def _factors(q: float | None, confidence: float, damping: tuple[float, float]) -
     return number(q, "q", "", least=1.0), number(confidence, "FC", "", least=1.0, most=MOST_FC)
 
 
-def _oscillator(
-    masses: tuple[MovingMass, ...], alpha: float, flow: str, confidence: float
-) -> tuple[list[Quantity], float, float]:
-    """Sums over the masses, alpha0, e*, a0* as quantities; a0* and e*."""
+def _weights(masses: tuple[MovingMass, ...]) -> tuple[float, float, float, float]:
+    """Sums of weights, N, that move along the push, times displacements along it, their squares, upwards."""
     P, x, y = (np.array([getattr(one, of) for one in masses]) for of in ("weight", "horizontal", "vertical"))
     along = np.abs(x) > STILL  # a mass that is lifted only would make e* less and a0* more
-    total, first, second = float(P[along].sum()), float(P @ x), float(P @ x**2)
-    e = first**2 / (total * second)
+    return float(P[along].sum()), float(P @ x), float(P @ x**2), float(P @ y)
+
+
+def _participation(masses: tuple[MovingMass, ...]) -> float:
+    """Participating share of the mass, e*, [C8.7.1.5]."""
+    total, first, second, _ = _weights(masses)
+    return first**2 / (total * second)
+
+
+def _oscillator(
+    masses: tuple[MovingMass, ...], alpha: float, flow: str, confidence: float, *, many: bool
+) -> tuple[list[Quantity], float, float]:
+    """Sums over the masses, alpha0, e*, a0* as quantities; a0* and e*, of `many` mechanisms at most 1."""
+    total, first, second, up = _weights(masses)
+    e = 1.0 if many else _participation(masses)
+    share = "1, the most that one of the mechanisms with this alpha0 can have" if many else SHARE
     a0 = alpha * G / (e * confidence)
     mass = e * total / G
     return [
@@ -177,9 +192,8 @@ def _oscillator(
         Quantity("sum P dx^2", "the same with squares", "sum (P_k + Q_k) delta_PQx,k^2", second, "N",
                  "[C8.7.1.5]"),
         Quantity("sum P dy", "the same with displacements upwards", "sum (P_k + Q_k) delta_Py,k",
-                 float(P @ y), "N", "[C8.7.1.1]"),
-        Quantity("e*", "participating share of the mass", "(sum P dx)^2 / (sum P  sum P dx^2)", e, "",
-                 "[C8.7.1.5]"),
+                 up, "N", "[C8.7.1.1]"),
+        Quantity("e*", "participating share of the mass", share, e, "", "[C8.7.1.5]"),
         Quantity("M*", "participating mass", "e* sum P / g", mass, "kg", "Circolare 617/2009 (not seen)"),
         Quantity("FC", "confidence factor", GIVEN, confidence, "", "C8.5.4, C8.7.1.2.1.3"),
         Quantity("a0*", "acceleration that sets it off", "alpha0 g / (e* FC)", a0, "m/s2", "[C8.7.1.8]"),
