@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from limitblocks.analysis.magnitudes_of_fills import of_fills
+from limitblocks.analysis.magnitudes_of_fills import HEAVY_FILL, of_fills
 from limitblocks.analysis.magnitudes_of_ties import of_ties
 from limitblocks.analysis.magnitudes_of_weight import of_weights
 from limitblocks.arrays import Array
@@ -34,8 +34,6 @@ _HEAVY, _STRONG = 2.2e5, 1e9
 #: Unit weights, N/m3, below which fill and what presses a face may be densities in kg/m3: expanded clay has
 #: 2500, the active pressure of soil under water grows by 1400 a metre.
 _OF_FILL, _OF_PRESSURE = 2.5e3, 1.2e3
-#: Unit weight, N/m3, that neither water nor soil has: concrete has 2.5e4.
-_HEAVY_FILL = 3e4
 #: Ground acceleration at life safety, m/s2, below which it may be in g: .05 g, the most of the calmest zone.
 _CALM = 0.49
 #: One beyond which it may have been given in m/s2 for g: .7 g, twice that of zone 1 (OPCM 3519/2006).
@@ -133,7 +131,7 @@ def of_fill(weight: float, density: float = _OF_FILL) -> list[str]:
 
     Below `density` it may be one; 1 is the load whose factor is the unit weight.
     """
-    if weight > _HEAVY_FILL:
+    if weight > HEAVY_FILL:
         return [
             f"fill or pressure: unit weight is {weight:g} N/m3, more than of concrete: in N/m3? see units"
         ]

@@ -19,6 +19,8 @@ from limitblocks.shown import coordinate
 _SAME = 1e-3
 #: Share of the thrust on one side of a block that is asked about where as much acts on the other one.
 _MUCH = 0.1
+#: Unit weight, N/m3, that neither water nor soil has: concrete has 2.5e4.
+HEAVY_FILL = 3e4
 _ROUNDED = 1e-9  # of the fill on a face: less is missing by rounding
 
 
@@ -65,16 +67,22 @@ def _cancelled(thrusts: Array) -> float:
 
 
 def _twice(model: Model) -> Iterator[str]:
-    """Return what is asked about fill that the dead load has twice, up to one level on the same faces."""
+    """Return what is asked about fill that the dead load has twice, up to one level on the same faces.
+
+    Two that differ, and together weigh what one fill may, are its parts, as earth and the water in it.
+    """
     fills = [(factor, term) for factor, term in model.dead.terms if isinstance(term, Fill)]
     for (a, one), (b, other) in combinations(fills, 2):
+        weights = a * one.unit_weight, b * other.unit_weight
+        if weights[0] != weights[1] and abs(sum(weights)) <= HEAVY_FILL * max(abs(a), abs(b)):
+            continue
         if _one_side(one, other) and a * b > 0.0 and abs(one.level - other.level) <= _SAME:
             blocks = model.free_blocks
             if both := _faces(one, blocks) & _faces(other, blocks):
                 names = dict.fromkeys(blocks[k].name for k, _ in sorted(both))
                 yield (
                     f"the dead load has fill up to Z = {coordinate(one.level)} m on {some([*names])} twice, "
-                    f"of {a * one.unit_weight:.4g} and {b * other.unit_weight:.4g} N/m3: one of them?"
+                    f"of {weights[0]:.4g} and {weights[1]:.4g} N/m3: one of them?"
                 )
 
 

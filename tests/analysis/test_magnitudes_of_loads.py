@@ -63,6 +63,10 @@ def test_self_weight_that_the_load_factor_multiplies_is_not_forgotten():
         (lb.loads.fill(18e3, 2.5004), 1),  # rounded to a millimetre
         (lb.loads.fill(20e3, 2.5, blocks=["voussoir 1", "voussoir 2"]), 1),
         (lb.loads.fill(3e3, 2.3), 0),  # a heavier layer below
+        (lb.loads.fill(3e3, 2.5), 0),  # water in it: 21 kN/m3
+        (0.35 * lb.loads.fill(18e3, 2.5), 0),  # what a partial factor adds
+        (lb.loads.fill(13e3, 2.5), 1),  # 31 kN/m3: heavier than concrete
+        (lb.loads.fill(5e3 / 0.5, 3.0) - lb.loads.fill(5e3 / 0.5, 2.5), 0),  # a surcharge of 5 kN/m2
         (-1.0 * lb.loads.fill(18e3, 2.5, blocks="voussoir 1"), 0),
     ],
 )
@@ -72,6 +76,14 @@ def test_fill_given_twice_is_asked_about(more, asked):
     said = questions(replace(model, dead=model.dead + more))
     assert len(said) == asked
     assert all("Z = 2.5 m on blocks 'voussoir 1', 'voussoir 2'" in one for one in said)
+
+
+@pytest.mark.parametrize(("weights", "asked"), [((5e3, 5e3), 1), ((18e3, 3e3), 0), ((18e3, 18e3), 1)])
+@pytest.mark.parametrize("gamma_G", [1.0, 1.5])
+def test_parts_of_one_fill_are_not_asked_about_whatever_factor_both_have(weights, asked, gamma_G):
+    model = block()
+    dead = model.dead + sum(lb.loads.fill(one, 2.0) for one in weights)
+    assert len(questions(replace(model, dead=gamma_G * dead))) == asked
 
 
 @pytest.mark.parametrize("batter", [0.0, 1e-3, 0.5])

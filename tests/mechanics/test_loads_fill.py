@@ -246,6 +246,17 @@ def test_wrong_fill_is_refused(load, said):
         load().on(ARCH.free_blocks)
 
 
+def test_a_surcharge_is_a_layer_less_the_fill_below():
+    """q on the surface: q on the plan of each face, K q on its vertical projection."""
+    q, K, t = 5e3, 0.4, 0.5
+    load = sum(
+        sign * lb.loads.fill(q / t, LEVEL + top, earth_pressure=K) for sign, top in ((1, t), (-1, 0.0))
+    ).on(ARCH.free_blocks)
+    (x, z) = extrados().T
+    assert -load[:, 2] == pytest.approx(q * DEPTH * np.diff(x), rel=1e-9)
+    assert load[:, 0] == pytest.approx(K * q * DEPTH * np.diff(z), rel=1e-9, abs=1e-6)
+
+
 def test_a_level_under_what_covers_all_leaves_no_fill():
     """The outer ring covers the inner one but for rounding errors: no fill of 8e-15 N at .1 m."""
     bridge = lb.structures.arch_bridge(
