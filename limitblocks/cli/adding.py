@@ -34,7 +34,10 @@ Prestress = Annotated[
 NumberOf = Annotated[int, typer.Option("--number-of", help="Ties side by side.")]
 At = Annotated[Any, vector("--point", names="X,Y,Z", help="Its place on the joint, m.", show_default=False)]
 Across = Annotated[
-    str, typer.Option("--interface", help="The joint, such as 'ground|wall' [default: that at the point].")
+    str,
+    typer.Option(
+        "--interface", help="The joint, such as 'ground|wall' or 'wall|ground' [default: that at the point]."
+    ),
 ]
 Width = Annotated[float, typer.Option("--width", help="Of the strip, m.", show_default=False)]
 Holds = Annotated[
@@ -50,7 +53,8 @@ Wet = Annotated[
     list[str] | None,
     typer.Option(
         "--interface",
-        help="A joint with water, such as 'ground|wall'; again for more [default: all below the level].",
+        help="A joint with water, such as 'ground|wall' or 'wall|ground'; again for more [default: all below "
+        "the level].",
     ),
 ]
 WaterWeight = Annotated[float, typer.Option("--unit-weight", help="Of the water, N/m3.")]

@@ -25,6 +25,8 @@ def off_joint(interface: Interface, point: Array) -> float:
 def joints_named(model: Model, names: Sequence[str] = ()) -> list[Interface]:
     """Return the joints in which two blocks touch that have one of the names; all of them without names.
 
+    A name may have the blocks in either order, unless there are joints of both.
+
     Raises
     ------
     ModelError
@@ -32,6 +34,8 @@ def joints_named(model: Model, names: Sequence[str] = ()) -> list[Interface]:
     """
     touching = [one for one in model.interfaces if not isinstance(one.joint, Tie | Dowel | Guide)]
     known = {one.name for one in touching}
+    turned = {f"{one.block_j}|{one.block_i}": one.name for one in touching}
+    names = [name if name in known else turned.get(name, name) for name in names]
     if unknown := [name for name in names if name not in known]:
         known_ones = f"; there are {few(sorted(known))}" if known else "; there is none"
         raise ModelError(

@@ -1,12 +1,14 @@
 """Ties, strips, dowels and water from the shell: load factors by hand, wrong places and numbers."""
 
 import json
+from dataclasses import replace
 
 import pytest
 from typer.testing import CliRunner
 
 import limitblocks as lb
 from limitblocks import cli
+from limitblocks.practice.places import joints_named
 
 B, H, W, MU = 0.5, 5.0, 50e3, 0.6
 F = 8e3  # N: what a tie, strip or dowel carries
@@ -40,6 +42,7 @@ def moments(height):
         ),
         (("strip", "--point", 0, 0, 0, *STRIP), moments(B)),
         (("strip", "--point", "0,0,0", *STRIP, "--interface", "base|block 1"), moments(B)),
+        (("strip", "--point", "0,0,0", *STRIP, "--interface", "block 1|base"), moments(B)),
     ],
 )
 def test_what_holds_a_wall_is_in_the_model_written(wall, tmp_path, asked, expected):
@@ -70,7 +73,7 @@ def test_a_dowel_holds_a_block_that_slides(tmp_path):
             "'block 1,0,0': expected a block and 3 numbers",
         ),
         (("strip", "--point", 0, 0, 1, *STRIP), "not on the joint, 1 m off it"),
-        (("strip", "--point", 0, 0, 0, *STRIP, "--interface", "block 1|base"), "there are base|block 1"),
+        (("strip", "--point", 0, 0, 0, *STRIP, "--interface", "block 2|base"), "there are base|block 1"),
     ],
 )
 def test_what_is_wrong_is_named_and_nothing_written(wall, tmp_path, asked, said):
@@ -93,7 +96,7 @@ def test_a_model_is_replaced_only_if_told_and_slips_are_asked_about(wall, tmp_pa
 def test_water_lifts_a_wall(wall, tmp_path):
     """U = gamma z b through the middle of the base: both moments shrink alike."""
     asked = ("uplift", wall, "--level", 2, "--share", 0.5, "-o", tmp_path / "wet.json")
-    done = run(*asked, "--interface", "base|block 1")
+    done = run(*asked, "--interface", "block 1|base")
     assert (done.exit_code, done.stderr) == (0, "")
     assert "with water in 1 joint" in done.stdout
     wet = lb.read(tmp_path / "wet.json")
@@ -132,3 +135,23 @@ def test_a_point_on_two_joints_asks_which(tmp_path):
     assert "on the joints ground|left and ground|right and left|right: say which" in run(*asked).stderr
     assert run(*asked, "--interface", "left|right").exit_code == 0
     assert lb.read(tmp_path / "held.json").interfaces[-1].name == "strip left|right"
+
+
+def test_where_joints_have_both_orders_of_two_blocks_each_is_named_by_its_own():
+    """Two feet of one table: given by hand, each its own way round."""
+    ground = lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1))
+    table = lb.Block.box("table", (2, 1, 1), (0, 0, 0.5), 20e3)
+    (whole,) = lb.find_interfaces([ground, table], lb.PointContact(MU))
+    foot = whole.polygon * (0.25, 1.0)
+    left, right = (replace(whole, centroid=(x, 0, 0), polygon=foot) for x in (-0.75, 0.75))
+    turned = replace(
+        right,
+        block_i="table",
+        block_j="ground",
+        axes=right.axes * [[1], [-1], [-1]],
+        polygon=(foot * (1, -1))[::-1],
+    )
+    model = lb.Model(
+        [ground, table], ["ground"], [left, turned], lb.self_weight(), lb.mass_proportional((1, 0, 0))
+    )
+    assert [joints_named(model, [one.name]) for one in (left, turned)] == [[left], [turned]]
