@@ -200,7 +200,7 @@ def _at_odds(assembly: Assembly, rates: Array, held: list[Truths], sliding: list
     """
     least = 10.0 * CLOSED * assembly.size
     taut = {k for k, own in enumerate(assembly.contacts) if own.tied and own.ways[0, 2] <= least}
-    joints = [own.interface.joint for own in assembly.contacts if own.pressed]
+    joints = [own.interface.joint for own in assembly.contacts if own.ways[:, 2].min() <= least]
     if not taut or all(getattr(joint, "compressive_strength", None) is None for joint in joints):
         return set()
     way, (start, _) = PROBE * assembly.size, closed_up(assembly, held, sliding)
