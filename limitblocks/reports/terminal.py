@@ -49,15 +49,16 @@ def print_result(model: Model, result: Any) -> None:
     What counts stands first, and last again where tables of many rows scroll it away.
     """
     said = section(model, result)
-    headline = f"\n  [bold]{said.headline}[/bold]  {said.quantity}, {said.title}\n"
+    head = (said.headline, "bold"), f"  {said.quantity}, {said.title}\n"
+    headline = Text.assemble("\n  ", *head)  # Text: a name in brackets is not markup
     tables = [part for part in chapter(said, None, "").parts if isinstance(part, Table)]
-    Console(soft_wrap=True).print(headline, highlight=False)
+    Console(soft_wrap=True).print(headline)
     Console().print(Text(said.meaning))
     for table in tables:
         Console().print(_table(_shortened(table)), crop=False)
     print_warnings(said.warnings)
     if sum(len(table.rows) for table in tables) > _SCREEN:
-        Console(soft_wrap=True).print(headline, highlight=False)
+        Console(soft_wrap=True).print(headline)
 
 
 def _shortened(part: Table) -> Table:
@@ -110,7 +111,7 @@ def _table(part: Table) -> RichTable:
     )
     for k, head in enumerate(part.heads):
         justify: Literal["left", "right"] = "right" if k in part.right else "left"
-        table.add_column(head, justify=justify, overflow="fold", min_width=_unbroken(part, k))
+        table.add_column(Text(head), justify=justify, overflow="fold", min_width=_unbroken(part, k))
     if not part.heads:
         table.add_column(no_wrap=True)
         table.add_column(overflow="fold")

@@ -41,6 +41,22 @@ def test_settle(beam, tmp_path):
     assert "'beam' is a free block" in wrong.output
 
 
+@pytest.mark.parametrize("name", ["pier [west]", "[/b]", "pier :cat:"])
+def test_names_that_look_like_markup_are_printed_as_they_are(name, tmp_path):
+    """The beam turns about the inner edge of the one support and rests on the far edge of the other."""
+    stones = [
+        lb.Block.box("east", (0.5, 1.0, 0.2), (-1.5, 0.0, -0.1)),
+        lb.Block.box(name, (0.5, 1.0, 0.2), (1.5, 0.0, -0.1)),
+        lb.Block.box("beam", (4.0, 1.0, 0.5), (0.0, 0.0, 0.25), 20e3),
+    ]
+    path = model_of(stones, ["east", name], lb.PointContact(0.6)).save(tmp_path / "m.json")
+    least = 20.0 * 4.0 * 1.0 * 0.5 * 1.25 / (1.75 + 1.25)
+    done = run("settle", path, "--support", name)
+    assert (done.exit_code, done.exception) == (0, None)
+    head = f"  {least:.6g} kN  least reaction without dilatancy, Settlement of {name}"
+    assert done.stdout.splitlines()[1] == head
+
+
 def test_settle_until_collapse(tmp_path):
     """Two stones that lean on one another slide apart; each of the misuses is one line."""
     ring = lb.structures.arch(lb.PointContact(0.5), radius=1.0, thickness=0.3, voussoirs=2)
