@@ -20,6 +20,7 @@ COLOURS = {
     "associated, kinematic": VERMILION,
     "associated": ORANGE,
 }
+_LIMITS = [name for name in COLOURS if name not in ("non-associated", "load path")]
 
 
 def bracket(*results: Bounds | Nonassociated | LoadPath, ax: Any = None) -> Any:
@@ -28,8 +29,9 @@ def bracket(*results: Bounds | Nonassociated | LoadPath, ax: Any = None) -> Any:
     Parameters
     ----------
     *results : Bounds, Nonassociated or LoadPath
-        Of one model. A non-associated result and a load path bring the frictionless and the associated
-        value; the first is "not claimed" where one of them does not claim it.
+        Of one model, each a bar. A non-associated result and a load path bring the frictionless and the
+        associated value; the first is "not claimed" where one of them does not claim it, and what was read
+        from a file counts where nothing was computed.
     ax : Axes, optional
         Where to draw.
 
@@ -41,22 +43,33 @@ def bracket(*results: Bounds | Nonassociated | LoadPath, ax: Any = None) -> Any:
     if not results:
         raise LimitBlocksError("no result given; expected those of bounds, nonassociated and load_path")
     values: dict[str, float] = {}
+    kinds: dict[str, str] = {}
     digests = set()
-    for result in results:
+    for result in sorted(results, key=lambda one: bool(getattr(one, "from_file", False))):
         one = _load_factors(result)
         if np.isnan(one.get("frictionless", 0.0)):  # a lower end of all results drawn, or of none
             values.pop("frictionless", None)
-        values = one | values
+        for kind, value in one.items():
+            name = kind if kind in _LIMITS else _named(kind, result, value, values)
+            kinds[name] = kind
+            values.setdefault(name, value)
         digests.add(getattr(result, "collapse", result).digest)
     if len(digests) > 1:
         raise LimitBlocksError("the results belong to different models; compare results of one")
-    order = [name for name in COLOURS if name in values]
+    order = sorted(values, key=lambda name: list(COLOURS).index(kinds[name]))
     ax = curve_axes(ax, size=(room(), 0.9 + 0.42 * len(order)))
     numbers = np.array([values[name] for name in order])
     finite = np.isfinite(numbers)
     longest = float(np.abs(numbers[finite]).max(initial=0.0)) or 1.0
     drawn = np.where(finite, numbers, np.where(np.isposinf(numbers), 1.25 * longest, 0.0))
-    ax.barh(order, drawn, height=0.6, color=[COLOURS[name] for name in order], edgecolor=BLACK, linewidth=0.6)
+    ax.barh(
+        order,
+        drawn,
+        height=0.6,
+        color=[COLOURS[kinds[name]] for name in order],
+        edgecolor=BLACK,
+        linewidth=0.6,
+    )
     for k, (number, end) in enumerate(zip(numbers.tolist(), drawn.tolist(), strict=True)):
         said = f"{number:.4g}" if np.isfinite(number) else "unlimited" if number > 0 else "not claimed"
         ax.annotate(
@@ -67,6 +80,14 @@ def bracket(*results: Bounds | Nonassociated | LoadPath, ax: Any = None) -> Any:
     ax.set_xlabel("load factor (–)")
     plain(ax)
     return ax
+
+
+def _named(kind: str, result: Any, value: float, known: dict[str, float]) -> str:
+    """Name of the bar of a solution: with its dilatancy, and a number where another one has that name."""
+    dilatancy = getattr(result, "collapse", result).dilatancy
+    name = f"{kind}, dilatancy {dilatancy:g}" if dilatancy else kind
+    names = [name, *(f"{name} ({k})" for k in range(2, len(known) + 3))]
+    return next(one for one in names if one not in known or known[one] == value)
 
 
 def _load_factors(result: Any) -> dict[str, float]:

@@ -9,12 +9,11 @@ from limitblocks.evidence.backward_error import BackwardError
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.reports.as_read import AS_READ
-from limitblocks.reports.comparison import NOT_CLAIMED
+from limitblocks.reports.comparison import NOT_CLAIMED, Row
 from limitblocks.reports.words import at_least, at_most, figures
 
 SHOWN = 4  # names in a cell
 KNOWN = 0.2  # of friction: how well it is known, docs/how-sure.md
-Row = tuple[str, str, str]
 
 
 def limits(result: Nonassociated) -> tuple[Row, Row]:

@@ -12,9 +12,10 @@ from limitblocks.evidence.residuals import OF_BOUNDS
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 from limitblocks.reports.as_read import AS_READ
+from limitblocks.reports.comparison import Row
 from limitblocks.reports.curve import convergence_curve, path_curve
 from limitblocks.reports.document import Table
-from limitblocks.reports.rows import SHOWN, Row, backward, far, limits, loose
+from limitblocks.reports.rows import SHOWN, backward, far, limits, loose
 from limitblocks.reports.section import Section
 from limitblocks.reports.words import at_least, at_most, cut, figures
 from limitblocks.shown import many
@@ -137,6 +138,7 @@ def _designs(result: Nonassociated, source: str) -> tuple[tuple[float, str, tupl
 
 def _compared(result: Nonassociated, name: str, meaning: str) -> tuple[Row, ...]:
     unproven = "" if result.converged else "; not converged, so not proven"
+    name += f", dilatancy {result.dilatancy:g}" if result.dilatancy else ""
     return (*limits(result), (name, figures(result.load_factor, 7), meaning + unproven))
 
 

@@ -267,6 +267,24 @@ def test_bracket_claims_a_lower_end_for_all_results_or_for_none():
     assert "not claimed" not in {text.get_text() for text in lb.plots.bracket(result).texts}
 
 
+def test_bracket_draws_a_bar_for_every_solution():
+    """The second of a kind was left out; limits that a file says took the place of those computed."""
+    result = path().collapse
+    lifting = dataclasses.replace(result, dilatancy=0.2, load_factor=0.24)
+    other = dataclasses.replace(result, load_factor=0.23)
+    read = dataclasses.replace(result, from_file=True, associated=0.9)
+    ax = lb.plots.bracket(read, lifting, result, other)
+    names = [text.get_text() for text in ax.get_yticklabels()]
+    widths = dict(zip(names, [bar.get_width() for bar in ax.patches], strict=True))
+    assert widths == {
+        "frictionless": result.frictionless,
+        "non-associated, dilatancy 0.2": 0.24,
+        "non-associated": result.load_factor,
+        "non-associated (2)": 0.23,
+        "associated": result.associated,
+    }
+
+
 @pytest.mark.parametrize(
     ("results", "message"), [((), "no result given"), ((3,), "int given"), (({},), "dict given")]
 )

@@ -15,6 +15,7 @@ from limitblocks.problem import Turning
 from limitblocks.reports import curve
 from limitblocks.reports.comparison import comparison
 from limitblocks.reports.rows import backward
+from limitblocks.reports.sections import section
 from limitblocks.reports.terminal import print_result
 from limitblocks.reports.words import at_most
 
@@ -105,6 +106,29 @@ def test_answers_stand_side_by_side_with_what_they_mean():
     (side,) = [one for one in content["chapters"] if one["title"] == "Side by side"]
     rows = side["parts"][0]["table"]["rows"]
     assert [row[0] for row in rows] == ["Frictionless", "Non-associated", "Associated"]
+
+
+def test_every_solution_stands_side_by_side():
+    """The second of a kind was left out, so that the load factor to design with could be missing."""
+    lifting = replace(RESULT, dilatancy=0.3, load_factor=0.245)
+    other = replace(RESULT, load_factor=0.22)
+    report = lb.report(MODEL, lifting, RESULT, other, RESULT, load_path(end=lifting))
+    names, values, _ = zip(*comparison(report.sections), strict=True)
+    assert names == (
+        *("Frictionless", "Non-associated, dilatancy 0.3", "Non-associated", "Non-associated"),
+        *("Load path, dilatancy 0.3", "Associated"),
+    )
+    assert values == ("0.1250000", "0.2450000", "0.2412346", "0.2200000", "0.2450000", "0.2500000")
+
+
+def test_limits_that_a_file_says_give_way_to_those_computed():
+    """The least and the most of a file, which nothing checks, took the place of proven ones."""
+    read = replace(RESULT, from_file=True, frictionless=0.2, associated=0.9)
+    for others in ((read, RESULT, BOUNDS), (BOUNDS, read, RESULT), (RESULT, read)):
+        values = {name: value for name, value, _ in comparison([section(MODEL, one) for one in others])}
+        assert (values["Frictionless"], values["Associated"][:6]) == ("0.1250000", "0.2500")
+    alone = {name: row for name, *row in comparison([section(MODEL, read)])}
+    assert alone["Associated"] == ["0.9000000", "as the file says, not computed here"]
 
 
 def test_missing_limits_are_said_in_words():
