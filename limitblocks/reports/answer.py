@@ -11,8 +11,14 @@ from limitblocks.reports.words import as_acceleration, cut, rounded_down
 
 CERTIFIED = (
     "Stresses, mechanism and multipliers that satisfy equilibrium, yield, flow rule and complementarity, "
-    "Eqs (54)-(59), prove it, recomputed without the solver. Joints that slide do not dilate by the friction "
-    "angle, as in real masonry. Other solutions may exist at other load factors."
+    "Eqs (54)-(59), prove it, recomputed without the solver. {} Other solutions may exist at other load "
+    "factors."
+)
+REAL = "Joints that slide do not dilate by the friction angle, as in real masonry."
+LIFTING = "Joints that slide lift by {:g} of what they slide, the dilatancy stated."
+LIFTED = (
+    "this load factor is one with a dilatancy of {:g}: joints that dilate less, as those of real masonry "
+    "may, can give a smaller one"
 )
 LEAST = "It is the least of the {} certified load factors of this report that loading leads to."
 UPPER = (
@@ -83,9 +89,12 @@ def answer(sections: Sequence[Section]) -> Answer:
     """
     certified = sorted(design for one in sections for design in one.designs)
     if certified:
-        load_factor, source, remarks = certified[0]
+        load_factor, source, remarks, dilatancy = certified[0]
         least = f"{LEAST.format(len(certified))} " if len(certified) > 1 else ""
-        return Answer(load_factor, True, source, least + CERTIFIED, remarks)
+        if dilatancy:
+            source, remarks = f"{source}, dilatancy {dilatancy:g}", (LIFTED.format(dilatancy), *remarks)
+        flow = LIFTING.format(dilatancy) if dilatancy else REAL
+        return Answer(load_factor, True, source, least + CERTIFIED.format(flow), remarks)
     upper = [one.upper for one in sections if one.upper is not None]
     return Answer(min(upper), False, "kinematic bound", UPPER) if upper else Answer()
 

@@ -11,7 +11,7 @@ from limitblocks.evidence.stability_result import Stability
 from limitblocks.model import Model
 from limitblocks.reports.claims import CheckedClaim
 from limitblocks.reports.rows import SHOWN, backward, far, loose, number
-from limitblocks.reports.section import Section
+from limitblocks.reports.section import Design, Section
 from limitblocks.reports.words import cut, figures
 
 OF_LOADS = "of the largest dead load tied to an interface"
@@ -60,7 +60,9 @@ def claim_section(model: Model, claim: CheckedClaim) -> Section:
         judged=check.judged,
         rates=claim.displacement_rates,
         warnings=check.warnings,
-        designs=((claim.load_factor, "claimed solution, checked", check.warnings),)
+        designs=(
+            Design(claim.load_factor, "claimed solution, checked", check.warnings, claim.claim.dilatancy),
+        )
         if claim.certified
         else (),
         upper=most if claim.check.accepted and not claim.certified else None,

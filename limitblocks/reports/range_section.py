@@ -8,7 +8,7 @@ from limitblocks.model import Model
 from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.document import Table
 from limitblocks.reports.rows import limits
-from limitblocks.reports.section import Section
+from limitblocks.reports.section import Design, Section
 from limitblocks.reports.words import cut, figures
 
 MEANING = (
@@ -50,7 +50,10 @@ def range_section(_model: Model, result: LoadFactorRange) -> Section:
         ),
         judged=(shown.check.residuals, result.tolerance) if shown else None,
         rates=shown.solution.displacement_rates if shown else None,
-        designs=tuple((one.load_factor, "range of load factors", one.solution.remarks) for one in arrived),
+        designs=tuple(
+            Design(one.load_factor, "range of load factors", one.solution.remarks, one.solution.dilatancy)
+            for one in arrived
+        ),
         warnings=result.remarks
         + (() if result.complete else ("the search was stopped early, by the time limit or by hand",)),
         parts=(Table.of("Certified load factors", HEADS, rows, right=(0,)),),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import Residuals
@@ -11,6 +12,15 @@ from limitblocks.reports.document import Part
 
 #: Of drawings of a mechanism.
 LEGEND = (("moving", "moving"), ("still", "standing still"), ("support", "support"), ("ghost", "before"))
+
+
+class Design(NamedTuple):
+    """A certified load factor to which loading leads: of what, what to know of it, and its dilatancy."""
+
+    load_factor: float
+    source: str
+    remarks: tuple[str, ...] = ()
+    dilatancy: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,9 +45,8 @@ class Section:
         What follows: tables, sentences, drawings of this kind of result.
     curve : Curve, optional
         A plot to draw.
-    designs : tuple of (float, str, tuple of str)
-        Certified load factors without dilatancy to which loading leads, of what, and what to know of each:
-        the least of a report is the one to design with.
+    designs : tuple of Design
+        The least of a report is the load factor to design with.
     upper : float, optional
         An upper estimate of it.
     own : bool
@@ -58,7 +67,7 @@ class Section:
     quantity: str = "load factor α"
     parts: tuple[Part, ...] = ()
     curve: Curve | None = None
-    designs: tuple[tuple[float, str, tuple[str, ...]], ...] = ()
+    designs: tuple[Design, ...] = ()
     upper: float | None = None
     own: bool = False
     judges: bool = False

@@ -16,7 +16,7 @@ from limitblocks.reports.comparison import Row
 from limitblocks.reports.curve import convergence_curve, path_curve
 from limitblocks.reports.document import Table
 from limitblocks.reports.rows import SHOWN, backward, far, limits, loose
-from limitblocks.reports.section import Section
+from limitblocks.reports.section import Design, Section
 from limitblocks.reports.words import at_least, at_most, cut, figures
 from limitblocks.shown import many
 
@@ -131,9 +131,10 @@ def _steps(path: LoadPath) -> Table:
     return Table.of("Steps of the load path", heads, rows, right=tuple(range(len(heads) - 1)))
 
 
-def _designs(result: Nonassociated, source: str) -> tuple[tuple[float, str, tuple[str, ...]], ...]:
+def _designs(result: Nonassociated, source: str) -> tuple[Design, ...]:
     sound = result.accepted and isfinite(result.load_factor)
-    return ((result.load_factor, source, _remarks(result)),) if sound else ()
+    design = Design(result.load_factor, source, _remarks(result), result.dilatancy)
+    return (design,) if sound else ()
 
 
 def _compared(result: Nonassociated, name: str, meaning: str) -> tuple[Row, ...]:

@@ -33,6 +33,24 @@ def test_large_numbers_are_never_rounded_up(capsys):
         assert capsys.readouterr().out.split()[0] == said
 
 
+@pytest.mark.parametrize("dilatancy", [0.0, 0.3, 0.5])
+def test_a_load_factor_with_dilatancy_is_not_told_as_one_without(dilatancy, tmp_path):
+    """A block slides at its friction coefficient, .5; where it lifts by as much, that is associated flow."""
+    stone = [
+        lb.Block.box("ground", (3, 1, 1), (0, 0, -0.5)),
+        lb.Block.box("stone", (2, 1, 1), (0, 0, 0.5), 2e4),
+    ]
+    model = model_of(stone, ["ground"], lb.OrdunaLourenco(0.5))
+    solved = lb.nonassociated(model, dilatancy=dilatancy)
+    read = lb.files.read_result(solved.save(tmp_path / "r.json"), model)
+    for result in (solved, read):
+        first = " ".join(lb.report(model, result).text.split("Model\n=====")[0].split())
+        assert "0.5000 load factor" in first
+        assert ("as in real masonry" in first) == (dilatancy == 0.0)
+        assert (f"dilatancy {dilatancy:g}: a horizontal" in first) == (dilatancy > 0.0)
+        assert ("can give a smaller one" in first) == (dilatancy > 0.0)
+
+
 @pytest.mark.parametrize(
     ("bound", "least", "most"),
     [
