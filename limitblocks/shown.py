@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
 from enum import Enum
 from importlib import import_module
+from math import floor, log10
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,20 @@ KEYS = {"digest": "model_digest", "limit": "backward_error_limit"}
 def many(number: int, word: str, words: str = "") -> str:
     """Return "1 block" or "2 blocks"; `words` where the plural takes more than an s."""
     return f"{number} {word if number == 1 else words or word + 's'}"
+
+
+def rounded_down(ratio: float) -> str:
+    """Return a ratio to three digits, never more than there is: neither .9996 is 1.00 nor 1 - 1e-13."""
+    digits = 2 - floor(log10(abs(ratio))) if ratio else 2
+    scale = 10.0**digits
+    least = floor(ratio * scale * (1 + 1e-12)) / scale  # 3 is 3 where it is .3 / .1
+    return f"{min(least, 0.999) if ratio < 1.0 else least:.{max(digits, 0)}f}"
+
+
+def compared(ratio: float, form: str) -> str:
+    """Return a ratio as text in a form such as ".3f", rounded down where it would be one that it is below."""
+    text = format(ratio, form)
+    return rounded_down(ratio) if ratio < 1.0 <= float(text) else text
 
 
 def coordinate(value: float) -> str:

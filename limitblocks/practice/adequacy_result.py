@@ -10,7 +10,7 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 from limitblocks.practice.partial_factors import PartialFactors
-from limitblocks.shown import Result, kept
+from limitblocks.shown import Result, compared, kept
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ class Adequacy(Result):
         size = self.characteristic_factor
         number = f"{size:.6g}" if isfinite(size) else "without limit"
         given = f"{number}, {_flow(self.characteristic_result)}"
-        found = f"adequacy factor {self.factor:.6g} ({_flow(self.result)}), {least}"
+        found = f"adequacy factor {compared(self.factor, '.6g')} ({_flow(self.result)}), {least}"
         return self._line(found, f"characteristic load factor {given}", *self.remarks)
 
 

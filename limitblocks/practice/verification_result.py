@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from limitblocks.practice.moving_masses import MovingMass
-from limitblocks.shown import Result, kept
+from limitblocks.shown import Result, compared, kept
 
 CLAIMED = (
     "The push is along the live load alone: along other directions, also between two that were verified, "
@@ -131,7 +131,7 @@ class Verification(Result):
 
     def __str__(self) -> str:
         checks = (
-            f"{one.name}: {one.ratio:.3f} {'satisfied' if one.satisfied else 'not satisfied'}"
+            f"{one.name}: {compared(one.ratio, '.3f')} {'satisfied' if one.satisfied else 'not satisfied'}"
             for one in self.checks
         )
         said = (f"a0* = {self['a0*']:.4g} m/s2", *checks, *(self.left_out,) * bool(self.left_out))

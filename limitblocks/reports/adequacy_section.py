@@ -6,7 +6,8 @@ from limitblocks.model import Model
 from limitblocks.practice import Adequacy
 from limitblocks.reports.document import Table
 from limitblocks.reports.section import Section
-from limitblocks.reports.words import at_least, at_most, figures, rounded_down, with_unit
+from limitblocks.reports.words import at_least, at_most, figures, with_unit
+from limitblocks.shown import rounded_down
 
 FACTORED = (
     "Load factor of the structure with design values: gamma_G multiplies the dead loads, gamma_Q the live "

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from limitblocks.model import Model
 from limitblocks.reports.section import Section
-from limitblocks.reports.words import as_acceleration, cut, rounded_down
+from limitblocks.reports.words import as_acceleration, cut
+from limitblocks.shown import rounded_down
 
 CERTIFIED = (
     "Stresses, mechanism and multipliers that satisfy equilibrium, yield, flow rule and complementarity, "
@@ -106,13 +107,13 @@ def verdict(found: Answer, demand: float) -> Verdict | None:
     ratio = found.load_factor / demand
     word = "load factor" if found.certified else "upper estimate of the load factor"
     number = cut(found.load_factor, most=not found.certified)
-    said = f"the {word} {number} is {rounded_down(ratio)} times the demand {demand:.4g}"
+    said = f"the {word} {number} is {rounded_down(ratio)} times the demand {demand:.15g}"
     if ratio < 0.0:
         said = (
             f"the {word} {number} is below zero: in this state the structure falls before the live load acts "
             "or with it acting the other way (stability says whether it stands without it)"
         )
-        meaning = f"the demand {demand:.4g} cannot be met"
+        meaning = f"the demand {demand:.15g} cannot be met"
     elif ratio < 1.0:
         meaning = "the demand is not reached"
     elif found.certified:

@@ -62,7 +62,7 @@ OWN = (
     "dilatancy, and nothing is said about safety beyond what that chapter says."
 )
 JUDGED = "Safety: chapter {}: {} {}."
-UNCOMPARED = "Safety: the demand {:.4g} is not compared with anything."
+UNCOMPARED = "Safety: the demand {:.15g} is not compared with anything."
 TIED = (("tie-stick", "tie, from anchor to anchor"),)
 VIEWED = (("still", "block that can move"), ("support", "support"))
 

@@ -12,7 +12,7 @@ from limitblocks.model import Model
 from limitblocks.practice.verification_result import CLAIMED, STEPS, Inequality, Quantity, Verification
 from limitblocks.reports.document import Table, Text
 from limitblocks.reports.section import Section
-from limitblocks.reports.words import rounded_down
+from limitblocks.shown import rounded_down
 
 GREEK = {"alpha": "α", "gamma": "γ", "delta": "δ", "zeta": "ζ", "xi": "ξ", "pi": "π", "psi": "ψ", "sum": "Σ"}
 CODE = "Circolare 7/2019, C8.7.1.2.1"

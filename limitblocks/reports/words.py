@@ -7,7 +7,6 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from inspect import getdoc
-from math import floor, log10
 from typing import Any
 
 import numpy as np
@@ -153,13 +152,6 @@ def _least_to_most(texts: Sequence[str]) -> str:
 def times(counts: dict[str, int]) -> str:
     """Return counted words as text."""
     return few([f"{count} × {word}" for word, count in counts.items()])
-
-
-def rounded_down(ratio: float) -> str:
-    """Three digits, never more than there is: .9996 is not 1.00."""
-    digits = 2 - floor(log10(abs(ratio))) if ratio else 2
-    scale = 10.0**digits
-    return f"{floor(ratio * scale * (1 + 1e-12)) / scale:.{max(digits, 0)}f}"
 
 
 def cut(value: float, digits: int = 4, most: bool = False) -> str:

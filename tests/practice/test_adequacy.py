@@ -48,6 +48,15 @@ class Nameless:
         return lb.OrdunaLourenco(self.friction, cohesion=self.c).yield_rows(polygons, stress_unit)
 
 
+def test_a_factor_below_one_is_not_told_as_one():
+    """A block slides at .3 of its weight; pushed by .3 / .99999995 of it it had "1, LESS than one"."""
+    model = block()
+    pushed = replace(model, live=0.3 / 0.99999995 * model.live)
+    found = adequacy(pushed, PartialFactors(1.0, 1.0, 1.0))
+    assert found.factor == pytest.approx(0.99999995, abs=1e-9)
+    assert str(found).startswith("adequacy factor 0.999 (without dilatancy), LESS than one")
+
+
 @pytest.mark.parametrize(("M", "phi"), [(1.0, 1.5), (1.2, 1.5), (1.5, 1.25), (2.0, None)])
 def test_dividing_friction_adds_no_tensile_strength(M, phi):
     """alpha = (1 + A f_t / W) b / h; of .02 MPa count c / mu = .01 MPa, more where mu alone is less."""

@@ -56,6 +56,15 @@ def test_facade_of_one_block(facade, answer, curve):
     assert str(found).startswith(f"a0* = {a0:.4g} m/s2; linear, SLV: 0.496 not satisfied; non-linear, SLV: ")
 
 
+def test_what_is_not_satisfied_is_not_told_as_one(facade, answer):
+    """The demand is proportional to a_g: at 1 / .9997 of the capacity it was "1.000 not satisfied"."""
+    ratio = verification(facade, answer, SITE, q=2.0, confidence=FC).checks[0].ratio
+    site = replace(SITE, a_g=SITE.a_g * ratio / 0.9997)
+    found = verification(facade, answer, site, q=2.0, confidence=FC)
+    assert found.checks[0].ratio == pytest.approx(0.9997)
+    assert "linear, SLV: 0.999 not satisfied" in str(found)
+
+
 def test_the_default_control_is_above_the_toe(facade, answer, curve):
     """d0* = .2955306 m; negative control: the corner behind it moves T (1 - cos) farther."""
     whole = capacity_curve(facade, steps=3)

@@ -33,6 +33,12 @@ def test_large_numbers_are_never_rounded_up(capsys):
         assert capsys.readouterr().out.split()[0] == said
 
 
+def test_a_demand_is_told_as_it_was_stated():
+    """.25 is .99997 times .250006; rounded to four digits the demand was the load factor."""
+    said = verdict(Answer(0.25, True, ""), 0.250006).text
+    assert "the load factor 0.2500 is 0.999 times the demand 0.250006: the demand is not reached" in said
+
+
 @pytest.mark.parametrize("dilatancy", [0.0, 0.3, 0.5])
 def test_a_load_factor_with_dilatancy_is_not_told_as_one_without(dilatancy, tmp_path):
     """A block slides at its friction coefficient, .5; where it lifts by as much, that is associated flow."""
@@ -72,6 +78,8 @@ def test_bounds_in_tables_are_rounded_away_from_the_load_factor(bound, least, mo
         (0.1, 0.2, "0.500", "the demand is not reached"),
         (0.19999, 0.2, "0.999", "the demand is not reached"),  # never rounded up to 1
         (0.2, 0.2, "1.00", "the demand is reached"),
+        (0.2 * (1 - 3e-13), 0.2, "0.999", "the demand is not reached"),  # nor in the last digits
+        (0.3, 0.1, "3.00", "the demand is reached"),  # 2.9999999999999996 in a computer
     ],
 )
 def test_a_demand_gives_a_ratio_and_a_verdict(load_factor, demand, shown, reached):
