@@ -17,6 +17,7 @@ from limitblocks.drawing.silhouette import outlines
 from limitblocks.drawing.ties import moved, tie_lines
 from limitblocks.drawing.view import towards, view_of
 from limitblocks.geometry import polyhedron
+from limitblocks.mechanics.loads.load import resultant
 from limitblocks.model import Model
 from limitblocks.shown import many
 
@@ -128,7 +129,7 @@ def mechanism_picture(model: Model, rates: Array, states: Sequence[str] = ()) ->
     shown = np.flatnonzero(moving).tolist()
     ghostly = shown if len(shown) <= MOST_GHOSTS else []
     ghosts = [_drawn(names[k], "ghost", faces[k], before[k], view, page) for k in ghostly]
-    live = model.live.on(model.free_blocks)[:, :3].sum(axis=0)
+    live = resultant(model.live, model.free_blocks)
     rings = outlines([before[k].points for k in shown], view, 1.0 / page.scale)  # a hair, to close slits
     return Picture(
         height=page.height,

@@ -13,6 +13,7 @@ from limitblocks.drawing.ties import moved, tie_lines
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence.interface_states import Collapse, collapse_of
 from limitblocks.evidence.load_path_result import LoadPath
+from limitblocks.mechanics.loads.load import resultant
 from limitblocks.model import Model
 from limitblocks.plots.drawing import Canvas
 from limitblocks.plots.style import EDGE, MOVING, STONE, SUPPORT, VERMILION, number
@@ -79,14 +80,14 @@ def draw_ties(drawn: Canvas, lines: Sequence[Array], **style: Any) -> None:
 def _draw_live(drawn: Canvas, model: Model, shapes: list[Array]) -> None:
     """Draw the direction of the live load above the structure, where it has one, and the frame."""
     points = np.concatenate(shapes)
-    resultant = model.live.on(model.free_blocks)[:, :3].sum(axis=0)
-    resultant = resultant if drawn.spatial else resultant @ drawn.view[:2].T @ drawn.view[:2]
-    size = float(np.linalg.norm(resultant))
+    force = resultant(model.live, model.free_blocks)
+    force = force if drawn.spatial else force @ drawn.view[:2].T @ drawn.view[:2]
+    size = float(np.linalg.norm(force))
     if size == 0.0:
         drawn.frame(points)
         return
     diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
-    vector = LIVE * diagonal * resultant / size
+    vector = LIVE * diagonal * force / size
     up = np.array([0.0, 0.0, 1.0]) if drawn.spatial else drawn.view[1]
     middle = (points.max(axis=0) + points.min(axis=0)) / 2
     height = float((points @ drawn.view[1]).max() - middle @ drawn.view[1]) / float(up @ drawn.view[1])

@@ -13,6 +13,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError, SolveError
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.joints.base import checked_count
+from limitblocks.mechanics.loads.load import resultant
 from limitblocks.model import Model, checked_model
 from limitblocks.practice import displaced as moving
 from limitblocks.practice.advance import (
@@ -199,7 +200,7 @@ def _advanced(
 
 def _control(model: Model, result: Nonassociated, given: Any) -> Control:
     """The point whose displacement is measured, along the sum of the live load."""
-    push = model.live.on(model.free_blocks)[:, :3].sum(axis=0)
+    push = resultant(model.live, model.free_blocks)
     if not np.linalg.norm(push) > 0.0:
         raise ModelError("the live loads add up to no force; a capacity curve needs a direction")
     direction = read_only(push / np.linalg.norm(push))

@@ -18,6 +18,7 @@ from limitblocks.evidence.claim import ARRAYS
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
 from limitblocks.evidence.load_path_result import LoadPath, PathStep
 from limitblocks.geometry.ends import ends_of
+from limitblocks.mechanics.loads.load import resultant
 from limitblocks.model import Model
 from limitblocks.reports.words import joint_words
 
@@ -35,7 +36,7 @@ def scene(model: Model, results: Iterable[Any], title: str) -> dict[str, Any]:
     shown = [result for result in results if in_scene(result)]
     states = [interface_states(model, result) for result in shown]
     words = _Words.of(states, [result for result in shown if isinstance(result, LoadPath)])
-    live = model.live.on(model.free_blocks)[:, :3].sum(axis=0)
+    live = resultant(model.live, model.free_blocks)
     size = float(np.linalg.norm(live))
     corners = np.concatenate([block.vertices for block in model.blocks])
     origin = np.round((corners.min(axis=0) + corners.max(axis=0)) / 2) + 0.0  # WebGL has seven digits

@@ -16,7 +16,7 @@ from limitblocks.errors import few
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import AddedMass, MassProportional, PointForce
 from limitblocks.mechanics.loads.forces import left_still
-from limitblocks.mechanics.loads.load import along, triple
+from limitblocks.mechanics.loads.load import along, resultant, triple
 from limitblocks.model import Model
 from limitblocks.shown import many
 from limitblocks.units import gravity
@@ -83,11 +83,12 @@ def _as_one(forces: Sequence[tuple[float, Any]], weighs: Mapping[str, float]) ->
 
 def resultant_words(model: Model, load: Load) -> str:
     """Return the sum of the forces on the free blocks as text."""
-    force = load.on(model.free_blocks)[:, :3].sum(axis=0)
+    force = resultant(load, model.free_blocks)
     size = float(np.linalg.norm(force))
     if size == 0.0:
         return "no resultant force"
-    return f"{size / 1e3:.4g} kN {along(force / size)}, components {triple(force, 1e3)} kN"
+    way, parts = (force / size).tolist(), force.tolist()
+    return f"{size / 1e3:.4g} kN {along(way)}, components {triple(parts, 1e3)} kN"
 
 
 def acceleration(model: Model) -> tuple[float, str] | None:

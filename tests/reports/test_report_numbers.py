@@ -1,7 +1,9 @@
 """Numbers of reports: rounded to the safe side, and compared with a demand."""
 
+from dataclasses import replace
+
 import pytest
-from stones import model_of
+from stones import model_of, portal_stones
 
 import limitblocks as lb
 from limitblocks.reports import terminal
@@ -31,6 +33,26 @@ def test_large_numbers_are_never_rounded_up(capsys):
         assert f"upper estimate of the load factor {most[:6]} is" in upper
         terminal.print_result(model, solved)
         assert capsys.readouterr().out.split()[0] == said
+
+
+def test_forces_that_cancel_have_no_resultant_and_no_arrow():
+    """100.1 + 200.2 - 300.3 is -5.7e-14 in a computer, which was told as 5.7e-17 kN along -X."""
+    model = model_of(portal_stones(), ["ground"], lb.OrdunaLourenco(0.6))
+    pushes = {"left": 100.1, "right": 200.2, "lintel": -300.3}
+    live = sum(lb.loads.force(name, (push, 0, 0), (0, 0, 1)) for name, push in pushes.items())
+    assert live.on(model.free_blocks)[:, 0].sum() != 0.0  # a control
+    balanced = replace(model, live=live)
+    report = lb.report(balanced, lb.bounds(balanced))
+    assert report.facts["live_resultant"] == "no resultant force"
+    assert report.scene["live"] is None
+    assert [name for name, *_ in report.picture.axes] == ["X", "Y", "Z"]
+    assert not lb.plots.structure(balanced).texts
+    with pytest.raises(lb.ModelError, match="add up to no force"):
+        lb.practice.capacity_curve(balanced)
+    pushed = lb.report(model, lb.bounds(model))
+    assert pushed.scene["live"] == [1, 0, 0]
+    weight = 2 * 20.0 + 24.0
+    assert pushed.facts["live_resultant"] == f"{weight:g} kN along +X, components ({weight:g}, 0, 0) kN"
 
 
 def test_a_demand_is_told_as_it_was_stated():

@@ -29,6 +29,9 @@ class Term(Protocol):
         """Return the term as an engineer would say it, with units."""
 
 
+CANCELLED = 1e-12  # of the forces of a load: a sum below it is what rounding leaves of them
+
+
 @dataclass(frozen=True)
 class Load:
     """A sum of load terms, each with a factor. Loads add up, and a number times a load is one."""
@@ -79,6 +82,14 @@ class Load:
 def of(*terms: Term) -> Load:
     """Return the load of these terms, each with factor one."""
     return Load(tuple((1.0, term) for term in terms))
+
+
+def resultant(load: Load, blocks: Sequence[Block]) -> Array:
+    """Return the sum of the forces of a load on `blocks`, N, (3,): 0 where they cancel but for rounding."""
+    parts = [factor * term.on(blocks)[:, :3] for factor, term in load.terms]
+    total = sum((part.sum(axis=0) for part in parts), np.zeros(3))
+    size = sum(float(np.abs(part).sum()) for part in parts)
+    return np.where(np.abs(total) > CANCELLED * size, total, 0.0)
 
 
 def vector(values: Sequence[float], word: str) -> Vector:
