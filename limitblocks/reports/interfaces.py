@@ -23,6 +23,10 @@ IDLE = 1e-3  # of the strength of fill: a row prints less as 0.000
 MOST = 40
 
 
+MOVES = "Moves: how far its two sides move apart or along one another, over the largest."
+TIGHT = "N and utilisation of a prestressed tie are those beyond its prestress, which is a dead load."
+
+
 class Active(NamedTuple):
     """Interfaces that do not stick: title of the result, heads, rows, how many there are of how many."""
 
@@ -31,7 +35,7 @@ class Active(NamedTuple):
     rows: tuple[tuple[Cell, ...], ...]
     active: int
     interfaces: int
-    note: str = "Moves: how far its two sides move apart or along one another, over the largest."
+    note: str = MOVES
     right: tuple[int, ...] = tuple(range(2, 10))
 
 
@@ -54,7 +58,9 @@ def active_interfaces(model: Model, result: Any, title: str) -> Active | None:
     shown = [k for k in order.tolist() if active[k]]
     resultants = without_noise(states.stress_resultants)
     rows = tuple(_row(states, resultants[k], float(moves[k]), k) for k in shown[:MOST])
-    return Active(title, HEADS, rows, len(shown), len(states.names))
+    tight = any(isinstance(one.joint, Tie) and one.joint.prestress for one in model.interfaces)
+    note = f"{MOVES} {TIGHT}" if tight else MOVES
+    return Active(title, HEADS, rows, len(shown), len(states.names), note)
 
 
 def relative_motion(model: Model, rates: Array) -> Array:

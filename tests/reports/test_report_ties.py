@@ -55,3 +55,24 @@ def test_ties_and_dowels_have_their_force_and_their_line():
     moves = relative_motion(model, solved.collapse.displacement_rates)
     turn = abs(solved.collapse.displacement_rates[1, 4])
     assert moves[1:3] == pytest.approx(turn * 4.5, rel=1e-6)
+
+
+def test_both_forces_of_a_prestressed_tie_are_told():
+    """A tie of 8 kN, .5 kN of it prestress, yields: N is what is beyond it, the force of the tie all."""
+    wall = facade()
+    rod = tie("wall", (0, 0, 4.5), "ground", (-6, 0, 4.5), area=1e-4, strength=80e6, prestress=5e2)
+    model = reinforced(wall, rod)
+    made = lb.report(model, lb.bounds(model))
+    said = "N and utilisation of a prestressed tie are those beyond its prestress"
+    shown, tied = [
+        p
+        for p in chapter(made, "Associated bounds").parts
+        if getattr(p, "caption", "").startswith(("Interfaces that", "Ties,"))
+    ]
+    assert said in shown.caption
+    (row,) = (row for row in shown.rows if row[0].text.startswith("tie"))
+    beyond = dict(zip(shown.heads, row, strict=True))["N, kN"].text
+    assert float(beyond) == pytest.approx(8.0 - 0.5)
+    assert float(tied.rows[0][2].text) == pytest.approx(8.0)
+    loose = reinforced(wall, tie("wall", (0, 0, 4.5), "ground", (-6, 0, 4.5), area=1e-4, strength=80e6))
+    assert said not in lb.report(loose, lb.bounds(loose)).html
