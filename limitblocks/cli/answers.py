@@ -118,7 +118,8 @@ def _refuse_files(file: Path, kept: Kept, animation: Path | None) -> None:
     if animation:
         from limitblocks.io.formats.gltf.writer import animation_path
 
-        refuse_existing(animation_path(animation), kept.force, file, option="--animation")
+        written = animation_path(animation)
+        refuse_existing(written, kept.force, file, kept.output, kept.filed, option="--animation")
 
 
 def questioned(file: Path) -> Model:

@@ -83,7 +83,7 @@ def vehicle(
         from limitblocks.analysis.magnitudes_of_bridges import of_axles, of_level
         from limitblocks.practice import Deck, Vehicle
 
-        refuse_existing(loaded, kept.force, model, kept.output, option="--model")
+        refuse_existing(loaded, kept.force, model, kept.output, kept.filed, option="--model")
         if (first is None) != (last is None):
             raise typer.BadParameter("give both or neither", param_hint="--first, --last")
         loads = Vehicle(numbers("--axles", axles), numbers("--distances", distances), contact)

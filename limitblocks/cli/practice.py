@@ -10,7 +10,7 @@ import typer
 
 from limitblocks.cli import analyses
 from limitblocks.cli.answers import NOTHING, Kept, answer, keeping
-from limitblocks.cli.errors import clean_errors
+from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.options import Animation, ModelFile
 from limitblocks.cli.vectors import numbers, vector
 
@@ -166,6 +166,8 @@ def verify(
 
         if drawn and linear:
             raise typer.BadParameter("give one of both", param_hint="--curve, --linear")
+        refuse_existing(kept.output, kept.force, drawn)
+        refuse_existing(kept.filed, kept.force, drawn, option="--report")
         found = answer(solve, model, kept, beside)
     if not all(one.satisfied for one in found.checks) or found.left_out:
         raise typer.Exit(1)

@@ -111,6 +111,28 @@ def test_animations(block, tmp_path):
         assert not wrong.stdout  # refused before the analysis
 
 
+def test_no_file_of_a_command_takes_the_place_of_another(block, beam, tmp_path):
+    """An animation took the place of the result, a report that of the model, a result that of the curve."""
+    both, curve = tmp_path / "both.glb", tmp_path / "curve.json"
+    assert run("capacity", block, "--steps", 3, "-o", curve).exit_code == 0
+    kept = curve.read_bytes()
+    site = ("--a-g", 0.25, "--soil", 1.2, "--f0", 2.5, "--t-c", 0.5, "--q", 2)
+    axle = ("--axles", 10e3, "--level", 0.5, "--first", 3.2, "--last", 3.8)
+    made = tmp_path / "made.json"
+    for words in (
+        ("capacity", block, "--animation", both, "-o", both),
+        ("vehicle", beam, *axle, "--model", made, "--report", made),
+        ("verify", block, *site, "--curve", curve, "-o", curve),
+        ("verify", block, *site, "--curve", curve, "--report", curve),
+    ):
+        done = run(*words, "--force")
+        assert (done.exit_code, "reads or writes, too" in done.stderr) == (2, True), words
+        assert not done.stdout  # refused before the analysis
+    assert curve.read_bytes() == kept
+    assert not both.exists()
+    assert not made.exists()
+
+
 def test_verify(block, tmp_path):
     """A block of its own: e* = 1, a0* = .2 g / 1.35, demand .25 x 1.2 g / 2."""
     site = ("--a-g", 0.25, "--soil", 1.2, "--f0", 2.5, "--t-c", 0.5, "--q", 2)
