@@ -102,10 +102,13 @@ class Picture:
         return Sheet("mechanism", title, text, self.height + _FOOT, (*groups, *arms), tuple(labels))
 
 
-def mechanism_picture(model: Model, rates: Array, states: Sequence[str] = ()) -> Picture:
+def mechanism_picture(
+    model: Model, rates: Array, states: Sequence[str] = (), *, pushed: bool = True
+) -> Picture:
     """Return the drawing of displacement rates (n, 6) of the blocks of `model`, from where they move to.
 
-    `states` are those of its interfaces, in whose colours ties are drawn; all stick without them.
+    `states` are those of its interfaces, in whose colours ties are drawn; all stick without them. An arrow
+    shows where its live load points to, if it is `pushed` by one.
     """
     blocks = model.blocks
     middle = np.mean([block.centroid for block in blocks], axis=0)
@@ -129,7 +132,7 @@ def mechanism_picture(model: Model, rates: Array, states: Sequence[str] = ()) ->
     shown = np.flatnonzero(moving).tolist()
     ghostly = shown if len(shown) <= MOST_GHOSTS else []
     ghosts = [_drawn(names[k], "ghost", faces[k], before[k], view, page) for k in ghostly]
-    live = resultant(model.live, model.free_blocks)
+    live = resultant(model.live, model.free_blocks) if pushed else np.zeros(3)
     rings = outlines([before[k].points for k in shown], view, 1.0 / page.scale)  # a hair, to close slits
     return Picture(
         height=page.height,

@@ -33,6 +33,7 @@ from limitblocks.plots.views import canvas
 from limitblocks.shown import many
 
 LONGEST = 0.15  # arrow of the largest force, over the diagonal of the structure
+LEVEL = 1e-9  # of the size of the structure: heights as near as that differ by rounding
 SHORTEST = 1e-2  # of the largest force: less is not drawn
 STICK = "#8c8c8c"
 # Colours of the states, widths of their lines so that print in grey tells some apart.
@@ -77,12 +78,13 @@ def forces(
     interfaces = states.interface_states(model, result)
     drawn = canvas(model, ax, plane)
     _pale(drawn, model)
+    points = np.concatenate([block.vertices for block in model.blocks])
+    level = LEVEL * float(np.ptp(points, axis=0).max())
     height = {block.name: block.centroid[2] for block in model.blocks}
-    up = [height[i.block_i] > height[i.block_j] * (1 + 1e-9) for i in model.interfaces]
+    up = [height[i.block_i] > height[i.block_j] + level for i in model.interfaces]
     vectors = np.where(np.array(up)[:, None], -interfaces.force, interfaces.force)
     sizes = np.linalg.norm(vectors, axis=1)
     shown = sizes > SHORTEST * sizes.max()
-    points = np.concatenate([block.vertices for block in model.blocks])
     longest = LONGEST * float(np.linalg.norm(np.ptp(points, axis=0)))
     length = longest / max(float(sizes.max()), np.finfo(float).tiny)
     tails = applied(interfaces)[shown]

@@ -57,7 +57,7 @@ def collapse_section(_model: Model, curve: SettlementCurve) -> Section:
 def _figure(curve: SettlementCurve) -> Figure:
     last = curve.points[-1]
     end = last.found.result or last.found.bounds
-    picture = mechanism_picture(last.found.settling.model, end.displacement_rates)
+    picture = mechanism_picture(last.found.settling.model, end.displacement_rates, pushed=False)
     drawn = picture.sheet(f"The structure at a settlement of {last.displacement:.6g} m")
     return Figure(drawn, FOLLOWING.format("The structure", last.displacement, picture.magnification), LEGEND)
 

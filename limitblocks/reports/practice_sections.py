@@ -51,7 +51,7 @@ def settlement_section(_model: Model, found: Settlement) -> Section:
                 "at which the structure follows, certified",
             )
         )
-    picture = mechanism_picture(own.model, end.displacement_rates)
+    picture = mechanism_picture(own.model, end.displacement_rates, pushed=False)  # by the dead loads alone
     drawn = picture.sheet(f"Mechanism that follows {own.support}")
     return Section(
         title=f"Settlement of {own.support}",

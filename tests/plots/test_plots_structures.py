@@ -134,6 +134,23 @@ def test_force_of_the_ground_on_a_rocking_block(turned):
     assert ax.get_title() == f"contact forces; longest arrow {size / 1e3:.3g} kN"
 
 
+@pytest.mark.parametrize("level", [0.0, -5.0])
+def test_forces_between_blocks_at_one_height_are_those_on_block_j(level):
+    """One cube pushes the other along +X, wherever Z = 0 is: below it the arrow pointed the other way."""
+    blocks = [
+        lb.Block.box("ground", (4, 1, 0.2), (0, 0, level - 0.1)),
+        lb.Block.box("a", (1, 1, 1), (-0.5, 0, level + 0.5), 20e3),
+        lb.Block.box("b", (1, 1, 1), (0.5, 0, level + 0.5), 20e3),
+    ]
+    interfaces = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.6))
+    push = lb.loads.force("a", (1e3, 0, 0), (-1, 0, level + 0.2))
+    model = lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), push)
+    ax = lb.plots.forces(model, lb.bounds(model))
+    (arrows,) = [c for c in ax.collections if isinstance(c, Quiver)]
+    (between,) = [k for k, i in enumerate(interfaces) if (i.block_i, i.block_j) == ("a", "b")]
+    assert arrows.U[between] > 0.0
+
+
 @pytest.mark.parametrize("make", [rocking, arch, corner])
 def test_legend_counts_the_interfaces_of_each_state(make):
     ax = lb.plots.interface_states(make(), bounds(make))
