@@ -107,3 +107,19 @@ def test_travel_is_that_of_the_corner_that_moves_most():
     block = lb.Block.box("a", (2, 2, 2), (5, 0, 0))
     moved = np.array([[1.0, 0, 0, 0, 0, 0.1]])  # v + w x r at (x, y): (1 - 0.1 y, 0.1 x)
     assert travel([block], moved) == pytest.approx([np.hypot(1.1, 0.1)])
+
+
+def test_stones_of_one_box_but_other_corners_are_all_drawn():
+    """Two that lean to either side, one behind the other: one was left out."""
+    right = [(0.0, 0.0), (1.0, 0.0), (1.2, 1.0), (0.2, 1.0)]
+    left = [(0.2, 0.0), (1.2, 0.0), (1.0, 1.0), (0.0, 1.0)]
+    stones = [
+        lb.Block.box("ground", (4, 4, 0.2), (0, 0, -0.1)),
+        lb.Block.prism("near", right, (0.0, 0.5), 20e3),
+        lb.Block.prism("far", left, (0.5, 1.0), 20e3),
+        lb.Block.prism("farther", left, (1.0, 1.5), 20e3),  # hidden by the one before
+    ]
+    found = lb.find_interfaces(stones, JOINT)
+    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    groups = [group.style for group in elevations(model).groups]
+    assert groups[: groups.index("dimension")] == ["still", "still", "support"]

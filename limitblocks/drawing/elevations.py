@@ -77,9 +77,9 @@ def _view(model: Model, plane: str) -> _View:
     view, supports = PLANES[plane], set(model.supports)
     order = sorted(model.blocks, key=lambda block: float((block.vertices @ view[2]).max()))
     # of courses or columns one behind the other, one drawing says enough: that of the nearest
-    seen: dict[tuple[float, ...], tuple[Array, bool]] = {}
+    seen: dict[tuple[tuple[float, ...], ...], tuple[Array, bool]] = {}
     for block, hull in zip(order, hulls([block.vertices for block in order], view), strict=True):
-        key = tuple(np.sort(hull.round(_FINE) + 0.0, axis=0).ravel().tolist())
+        key = tuple(sorted(map(tuple, (hull.round(_FINE) + 0.0).tolist())))
         seen.pop(key, None)
         seen[key] = hull, block.name in supports
     anchors = np.array([line.anchors for line in tie_lines(model)]).reshape(-1, 2, 3)
