@@ -18,6 +18,8 @@ FLOWS = {"bounds": "associated", "nonassociated": "non-associated"}  # of which 
 
 
 FALLS = "NoEquilibrium"
+#: Columns of the answers of a study, whatever its analysis.
+ANSWER = ("load_factor", "lower", "upper", "frictionless", "associated", "worst_residual", "error", "remarks")
 NO_MODEL = ("ModelError", "GeometryError", "ValueError")  # of the maker, or of what it gives
 
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 import csv
 import io
 from abc import abstractmethod
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, ClassVar
 
+from limitblocks.errors import ModelError
 from limitblocks.shown import Saved
 from limitblocks.written import write
 
@@ -42,6 +44,14 @@ class Rows(Saved):
             If the file exists and `overwrite` is false, or it cannot be written.
         """
         return write_csv(self.rows(), file, overwrite=overwrite)
+
+
+def refuse_column(parameter: str, columns: Iterable[str]) -> None:
+    """Raise ModelError where a parameter has the name of a column of results: one would hide the other."""
+    if parameter in columns:
+        raise ModelError(
+            f"a parameter has the name {parameter!r} of a column of the results; give it another one"
+        )
 
 
 def write_csv(rows: list[dict[str, Any]], file: str | Path, *, overwrite: bool = False) -> Path:

@@ -15,6 +15,7 @@ from limitblocks.shown import many
 from limitblocks.studies.results import FLOWS, unanswered
 from limitblocks.studies.rows import Rows
 
+ANSWER = ("load_factor", "mode", "error", "remarks")  # columns beside the parameters
 FEW = 19  # samples, below which the least of n has a share of more than 5 % below it, 1 / (n + 1)
 
 
@@ -138,7 +139,7 @@ class SampledStudy(Rows):
         """Return a row for each analysis, plain numbers and text."""
         remarks = self.remarks or ("",) * len(self.errors)
         columns = self.load_factors.tolist(), self.modes, self.errors, remarks
-        names = (*self.names, "load_factor", "mode", "error", "remarks")
+        names = (*self.names, *ANSWER)
         return [
             dict(zip(names, (*values, *answer), strict=True))
             for values, *answer in zip(self.values.tolist(), *columns, strict=True)

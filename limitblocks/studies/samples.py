@@ -11,6 +11,8 @@ from scipy.stats import qmc
 from limitblocks.arrays import Array, reals
 from limitblocks.errors import ModelError
 from limitblocks.joints.base import checked_choice, checked_count
+from limitblocks.studies.rows import refuse_column
+from limitblocks.studies.sample_result import ANSWER
 
 Sampler = Literal["sobol", "latin hypercube", "halton", "random"]
 
@@ -28,6 +30,8 @@ def sampled_values(
     names, k = tuple(parameters), len(parameters)
     if not names:
         raise ModelError("a study needs at least one parameter")
+    for name in names:
+        refuse_column(name, ANSWER)
     if indices and n & (n - 1):
         raise ModelError(f"n is {n}, expected a power of two for Sobol indices")
     d = 2 * k if indices else k

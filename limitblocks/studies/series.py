@@ -16,7 +16,8 @@ from limitblocks.mechanics.loads import compass, top_force, turned, unit_vector
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.partial_factors import with_live
 from limitblocks.studies.pool import FAILURES, Analysis, Outcome, Progress, analyse_all, failed
-from limitblocks.studies.results import Directions, MovingLoad, Sweep
+from limitblocks.studies.results import ANSWER, Directions, MovingLoad, Sweep
+from limitblocks.studies.rows import refuse_column
 
 
 def directions(
@@ -152,10 +153,11 @@ def sweep(
     Raises
     ------
     ModelError
-        If there is no value, or `values` is no sequence.
+        If there is no value, or `values` is no sequence, or the parameter has the name of a column.
     """
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise ModelError(f"values is {values!r}, expected a sequence of values of the parameter")
+    refuse_column(parameter, ANSWER)
     given = tuple(values)
     if not given:
         raise ModelError("sweep: there are no values, expected at least one")

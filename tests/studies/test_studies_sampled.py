@@ -242,6 +242,7 @@ def test_on_a_local_cluster():
         ({"parameters": {}}, "at least one parameter"),
         ({"parameters": {"friction": (0.6, 0.2)}}, "parameter 'friction' is .0.6, 0.2."),
         ({"parameters": {"friction": 0.6}}, "parameter 'friction' is 0.6, expected"),
+        ({"parameters": {"mode": (0.2, 0.6)}}, "has the name 'mode' of a column"),  # its values were lost
         ({"n": 0}, "n is 0"),
         ({"workers": "2"}, "workers is '2', expected a whole number of at least 1"),
         ({"sampler": "dice"}, "sampler is 'dice'"),

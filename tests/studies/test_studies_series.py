@@ -17,6 +17,7 @@ from limitblocks.analysis.nonassociated.means import Means
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.evidence.ending import Status
 from limitblocks.studies.pool import ANALYSES, INTERRUPTED, in_order
+from limitblocks.studies.results import ANSWER, FLOWS
 
 WEIGHT, B1, B2, H = 20e3, 1.0, 1.6, 2.0
 
@@ -272,11 +273,18 @@ def test_errors_of_the_maker_that_are_not_ours_are_raised():
         ({"workers": 0}, "workers is 0"),
         ({"workers": "2"}, "workers is '2'"),
         ({"values": []}, "no values"),
+        ({"parameter": "upper"}, "has the name 'upper' of a column"),  # its values were those of the answer
     ],
 )
 def test_wrong_study_is_refused(arguments, said):
     with pytest.raises(lb.ModelError, match=said):
         studies.sweep(**({"maker": lambda mu: block(lb.PointContact(mu)), "values": [0.5]} | arguments))
+
+
+def test_every_column_of_an_answer_is_one_that_no_parameter_may_hide():
+    both = [studies.sweep(lambda mu: block(lb.PointContact(mu)), [0.5], analysis=a) for a in FLOWS]
+    columns = {name for one in both for name in one.rows()[0]} - {"value"}
+    assert columns == set(ANSWER)
 
 
 def test_processes_give_the_same_rows_in_the_same_order():
