@@ -37,6 +37,7 @@ from limitblocks.cli.options import (
 from limitblocks.errors import LimitBlocksError
 
 _SUFFIX = ".html"
+PARAVIEW = (".vtu", ".pvd")  # the second of load paths
 MOST = 10**6  # lines kept
 
 
@@ -130,14 +131,14 @@ def report(
 def export(
     model: ModelFile, result: ClaimFile, file: ExportFile, scale: Scale = None, force: Force = False
 ) -> None:
-    """Write forces and displaced blocks for Rhino (3dm), COMPAS (JSON), glTF (GLB) or ParaView (VTU)."""
+    """Write forces and displaced blocks for Rhino (3dm), COMPAS (JSON), glTF (GLB) or ParaView (VTU, PVD)."""
     with clean_errors():
         from limitblocks.io import read, read_result, write_forces, write_vtu
 
         refuse_existing(file, force, model, result, option="FILE")
         structure = read(model)
         claim = read_result(result, structure)
-        if file.suffix.lower() != ".vtu":
+        if file.suffix.lower() not in PARAVIEW:
             typer.echo(str(write_forces(structure, file, claim, scale=scale, overwrite=force)))
             return
         if scale is not None:

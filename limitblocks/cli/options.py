@@ -59,7 +59,11 @@ Animation = Annotated[
 ClaimFile = Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (JSON).", show_default=False)]
 ExportFile = Annotated[
     Path,
-    typer.Argument(metavar="FILE", help="3dm, JSON (COMPAS), GLB or VTU file to write.", show_default=False),
+    typer.Argument(
+        metavar="FILE",
+        help="3dm, JSON (COMPAS), GLB or VTU file to write; PVD of a load path.",
+        show_default=False,
+    ),
 ]
 Scale = Annotated[
     float | None,

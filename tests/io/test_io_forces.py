@@ -4,6 +4,7 @@ import json
 from dataclasses import replace
 
 import compas
+import meshio
 import numpy as np
 import pytest
 import rhino3dm
@@ -233,3 +234,18 @@ def test_export_on_the_command_line(tmp_path):
     other = replace(ARCH, dead=2.0 * ARCH.dead).save(tmp_path / "other.json")
     assert "belongs to model" in run(other, result, tmp_path / "b.3dm").stderr
     assert run(model, result, model, "--force").exit_code == 2  # what it reads
+
+
+def test_a_load_path_is_exported_for_paraview_on_the_command_line(tmp_path):
+    """A file a step with its load factor; each of the two suffixes was refused with the other one named."""
+    model, result = ARCH.save(tmp_path / "arch.json"), tmp_path / "path.json"
+    path = lb.load_path(ARCH)
+    path.save(result)
+    file = tmp_path / "out.pvd"
+    done = CliRunner().invoke(app, ["export", *map(str, (model, result, file))])
+    assert done.exit_code == 0, done.stderr
+    steps = [meshio.read(tmp_path / f"out_{k:04d}.vtu").field_data for k in range(len(path.steps))]
+    factors = [float(step["load_factor"][0]) for step in steps]
+    assert factors == pytest.approx([step.load_factor for step in path.steps])
+    wrong = CliRunner().invoke(app, ["export", *map(str, (model, result, tmp_path / "out.vtu"))])
+    assert (wrong.exit_code, "expected .pvd" in wrong.stderr) == (2, True)
