@@ -94,8 +94,12 @@ def resultant_words(model: Model, load: Load) -> str:
 def acceleration(model: Model) -> tuple[float, str] | None:
     """Return the acceleration over g of a load factor of one, and its direction in words.
 
-    None where the live load is no acceleration of all masses in one direction.
+    None where the live load is no acceleration of all masses in one direction, or the dead load has their
+    weight more or less than once: which mass is meant is not known then.
     """
+    weights = [(factor, term) for factor, term in model.dead.terms if isinstance(term, MassProportional)]
+    if abs(sum(factor * term.direction[2] for factor, term in weights) + 1.0) > 1e-9:
+        return None
     masses = all(isinstance(term, MassProportional | AddedMass) for _, term in model.live.terms)
     if not masses or left_still(model.dead, model.live):
         return None

@@ -19,6 +19,18 @@ def test_an_acceleration_below_zero_is_rounded_to_the_safe_side():
         assert said in lb.report(back, result).text
 
 
+@pytest.mark.parametrize(("dead", "live"), [(1.0, 1.0), (2.0, 2.0), (1.35, 1.0), (0.9, 0.9)])
+def test_no_acceleration_is_said_of_masses_that_weigh_more_than_once(dead, live):
+    """A block of .5 m by 1 m tips at .5 g whatever its mass; with both loads twice it was told as 1 g."""
+    block = lb.structures.block(lb.PointContact(0.7), width=0.5, height=1.0)
+    model = replace(block, dead=dead * block.dead, live=live * block.live)
+    solved = lb.nonassociated(model)
+    assert solved.load_factor * live / dead == pytest.approx(0.5)
+    text = " ".join(lb.report(model, solved).text.split("Assumptions")[0].split())
+    assert ("acceleration along +X of 0.5000 g" in text) == (dead == 1.0)
+    assert ("acceleration" in text) == (dead == 1.0)
+
+
 @pytest.mark.parametrize("joint", [lb.PointContact(0.7), lb.OrdunaLourenco(0.7, compressive_strength=2e6)])
 def test_what_begins_to_flow_on_the_way_is_named_though_it_stops(joint):
     model = lb.structures.column(joint, count=4, width=0.5, height=0.4)
