@@ -161,6 +161,39 @@ def test_faces_in_one_plane_around_a_window_are_one(where, off):
     assert water == pytest.approx(expected, abs=WATER * (1e-9 + 8 * off))
 
 
+def twisted(off):
+    """A cube of 1 m, its corner at (0, 1, 1) moved out by `off`; three faces are two triangles each."""
+    box = lb.Block.box("wall", (1, 1, 1), (0.5, 0.5, 0.5))
+    vertices = np.array(sorted(box.vertices.tolist()))  # number 4 x + 2 y + z
+    vertices[3, 0] -= off
+    faces = [(0, 4, 5, 1), (4, 6, 7, 5), (0, 2, 6, 4)]
+    faces += [(0, 1, 3), (0, 3, 2), (1, 5, 7), (1, 7, 3), (2, 3, 7), (2, 7, 6)]
+    return lb.Block("wall", vertices, faces, 20e3)
+
+
+@pytest.mark.parametrize("off", [1e-3, 5e-3, 0.03])
+@pytest.mark.parametrize(
+    "where",
+    [{"facing": (-1, 0, 0)}, {"facing": (-1, 0.01, 0)}, {"at": (0, 0.2, 0.8)}, {"at": (0, 0.8, 0.2)}],
+    ids=["facing", "facing one more", "at the upper part", "at the lower part"],
+)
+def test_a_twisted_face_in_two_triangles_is_one(where, off):
+    """Its area seen along x is 1 m2, whatever the corner does."""
+    if "at" in where:  # on the triangle: x grows to -off at the corner, from the two sides that it is not on
+        where = {"at": (-off * min(where["at"][1:]), *where["at"][1:])}
+    load = lb.loads.pressure("wall", 1e3, **where).on([twisted(off)])[0]
+    assert load[0] == pytest.approx(1e3, rel=1e-12)
+
+
+def test_a_facet_of_what_looks_towards_a_direction_is_not_the_face():
+    """Two triangles at 8 degrees: each is half of the face, seen along the direction (-1, .01, 0)."""
+    said = "'wall': the face closest to direction .* has 0.5 of the 0.999 m2 that look within 45 degrees"
+    with pytest.raises(lb.ModelError, match=said):
+        lb.loads.pressure("wall", 1e3, facing=(-1, 0.01, 0)).on([twisted(0.1)])
+    part = lb.loads.pressure("wall", 1e3, at=(-0.1 * 0.2, 0.2, 0.8)).on([twisted(0.1)])[0]
+    assert part[0] == pytest.approx(500.0)
+
+
 def test_pressure_that_grows_upwards_is_a_difference():
     uniform = lb.loads.pressure("wall", WATER * 2.0, facing=(-1, 0, 0))
     load = (uniform + (-1) * lb.loads.pressure("wall", facing=(-1, 0, 0), unit_weight=WATER, level=2.0)).on(

@@ -9,23 +9,25 @@ import numpy as np
 from limitblocks.arrays import Array, Indices
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.geometry.accuracy import ANGLE, GAP
 from limitblocks.geometry.distance import beside
 from limitblocks.geometry.faces import surfaces_of
 from limitblocks.geometry.regions import regions
 
 _TIE = 1e-6
 _WIDEST = np.cos(np.pi / 4) - _TIE  # a face farther off than 45 degrees is not meant
+_FLAT = 0.05  # rad: faces that share edges and lie within it of their mean plane are one face in parts
+_MOST = 2 / 3  # of what looks within 45 degrees of a direction, seen along it: a lesser face is not it
 _NEAR = 1e-4  # of the block's size: how far a point may be off its face
 
 
 def faces_towards(block: Block, direction: Sequence[float]) -> Indices:
-    """Return the faces of `block`, all in one plane, whose outward normal is closest to a unit vector.
+    """Return the faces of `block`, one flat face in parts, whose outward normal is closest to a unit vector.
 
     Raises
     ------
     ModelError
-        If none is within 45 degrees, or two are equally close.
+        If none is within 45 degrees, two are equally close, or what is meant is less than 2/3 of what looks
+        within 45 degrees of the direction, as a facet of a rough or round face.
     """
     along = block.normals @ np.asarray(direction)
     best = int(along.argmax())
@@ -42,11 +44,18 @@ def faces_towards(block: Block, direction: Sequence[float]) -> Indices:
             f"block {block.name!r}: faces {_listed(ties)} are equally close to direction {tuple(direction)}; "
             "give a point of the face instead"
         )
-    return np.flatnonzero(plane == plane[best])
+    faces = np.flatnonzero(plane == plane[best])
+    seen = np.where(along >= _WIDEST, along * block.areas, 0.0)
+    if (own := float(seen[faces].sum())) < _MOST * (whole := float(seen.sum())):
+        raise ModelError(
+            f"block {block.name!r}: the face closest to direction {tuple(direction)} has {own:.3g} of the "
+            f"{whole:.3g} m2 that look within 45 degrees of it; give points of the faces, a pressure on each"
+        )
+    return faces
 
 
 def faces_through(block: Block, point: Sequence[float]) -> Indices:
-    """Return the faces of `block`, all in one plane, on which `point` (m) lies, within 1e-4 of its size.
+    """Return the faces of `block`, one flat face in parts, on which `point` (m) lies within 1e-4 of its size.
 
     Raises
     ------
@@ -64,9 +73,9 @@ def faces_through(block: Block, point: Sequence[float]) -> Indices:
 
 
 def _planes(block: Block) -> Indices:
-    """Number the plane regions of the faces, shape (m,), as contacts do: faces in one plane are one."""
-    flat = GAP / 2.0 * float(np.cbrt(block.volume))
-    return regions(surfaces_of([block], [block.vertices - block.centroid]), flat, ANGLE / 2.0)
+    """Number the faces in parts, shape (m,): those that share edges and are flat together are one."""
+    surfaces = surfaces_of([block], [block.vertices - block.centroid])
+    return regions(surfaces, block.size, _FLAT)
 
 
 def part_where(corners: Array, values: Array) -> tuple[Array, Array]:

@@ -105,7 +105,7 @@ def pressure(
 ) -> Load:
     """Return a pressure on a whole face of one or more blocks, normal to the face and into the block.
 
-    Several faces of a block in one plane, such as those around a hole, are one.
+    Faces that share edges and lie within 3 degrees of one plane, such as those around a hole, are one.
     It is ``pressure + unit_weight * max(level - z, 0)``; resultant and moment are exact. Whether something
     else covers the face does not matter. A pressure that grows upwards is a difference of two loads.
 
@@ -116,7 +116,8 @@ def pressure(
     pressure : float
         Uniform part, Pa; negative pulls.
     facing : sequence of float
-        The face is the one whose outward normal is closest to this direction, within 45 degrees.
+        The face is the one whose outward normal is closest to this direction, within 45 degrees; it has at
+        least 2/3 of what looks so.
     at : sequence of float
         Or: the face is the one on which this point lies, m; for a single block.
     unit_weight : float
