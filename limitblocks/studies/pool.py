@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
+from inspect import Signature, signature
 from multiprocessing import resource_tracker
 from typing import Any, Literal
 
@@ -14,11 +15,16 @@ import numpy as np
 
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
+from limitblocks.analysis.nonassociated.means import checked_means
+from limitblocks.analysis.nonassociated.start import stresses_given
+from limitblocks.choices import method_of, turning_of
 from limitblocks.errors import LimitBlocksError, ModelError, NotConverged, SolveError, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.backward_error import checked_limit
 from limitblocks.evidence.ending import Status
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.joints.base import checked_count
+from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 
 Analysis = Literal["bounds", "nonassociated"]
@@ -28,6 +34,16 @@ INTERRUPTED = "interrupted before this one was done"
 #: What costs its own row only: errors of this package, and those of numbers in a maker or a solver.
 FAILURES = (LimitBlocksError, ArithmeticError, ValueError, MemoryError)
 ANALYSES: dict[str, Callable[..., Result]] = {"bounds": bounds, "nonassociated": nonassociated}
+#: What a setting must be whatever the model, as the analyses check it.
+SETTINGS: dict[str, Callable[[Any], object]] = {
+    "tolerance": lambda value: number(value, "tolerance", "", above=0.0),
+    "dilatancy": lambda value: number(value, "dilatancy", "", least=0.0),
+    "turning": turning_of,
+    "method": method_of,
+    "backward_error": checked_limit,
+    "start": lambda value: value is None or stresses_given(value),
+    "means": lambda value: value is None or checked_means(value),
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,12 +111,11 @@ def analyse_all(
     Raises
     ------
     ModelError
-        If the analysis is unknown, or `workers` is not at least 1.
+        If the analysis is unknown, a setting is not one of it or wrong, or `workers` is not at least 1.
     SolveError
         If a process of the pool was ended from outside, as where memory runs out.
     """
-    if analysis not in ANALYSES:
-        raise ModelError(f"analysis is {analysis!r}, expected {' or '.join(map(repr, ANALYSES))}")
+    checked_settings(analysis, settings)
     checked_workers(workers)
     outcomes: dict[int, Outcome] = {k: made for k, made in enumerate(models) if isinstance(made, Outcome)}
     places = [k for k in range(len(models)) if k not in outcomes]
@@ -114,6 +129,25 @@ def analyse_all(
         if not any(k in outcomes for k in places):
             raise
     return [outcomes.get(k, Outcome(np.nan, None, INTERRUPTED)) for k in range(len(models))]
+
+
+def checked_settings(analysis: str, settings: Mapping[str, Any]) -> None:
+    """Raise ModelError where settings are not of the analysis, or wrong whatever the model."""
+    if analysis not in ANALYSES:
+        raise ModelError(f"analysis is {analysis!r}, expected {' or '.join(map(repr, ANALYSES))}")
+    fits(f"study, with {analysis}", signature(ANALYSES[analysis]), (None,), settings)
+    for name, value in settings.items():
+        if name in SETTINGS:
+            SETTINGS[name](value)
+
+
+def fits(who: str, takes: Signature, first: tuple[None, ...], given: Mapping[str, Any]) -> None:
+    """Raise ModelError where a function does not take what is given by name."""
+    try:
+        takes.bind(*first, **given)
+    except TypeError as error:
+        words = ", ".join(list(takes.parameters)[len(first) :])
+        raise ModelError(f"{who} is given {', '.join(given)} ({error}); it takes {words}") from None
 
 
 def checked_workers(workers: int | None) -> None:

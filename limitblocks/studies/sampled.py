@@ -6,7 +6,7 @@ import hashlib
 import json
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from inspect import Signature, signature
+from inspect import signature
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -15,17 +15,17 @@ import numpy as np
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import LimitBlocksError, ModelError, refuse_no_function
-from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.studies.pool import (
-    ANALYSES,
     FAILURES,
     INTERRUPTED,
     Analysis,
     Progress,
     analyse,
+    checked_settings,
     checked_workers,
     failed,
+    fits,
     in_order,
 )
 from limitblocks.studies.sample_result import SampledStudy
@@ -85,20 +85,16 @@ def study(
     Raises
     ------
     ModelError
-        If a parameter, the sampler, a name or a number is wrong, or the file is one of another study.
+        If a parameter, the sampler, a name, a setting or a number is wrong, or the file is of another study.
     """
-    if analysis not in ANALYSES:
-        raise ModelError(f"analysis is {analysis!r}, expected {' or '.join(map(repr, ANALYSES))}")
+    checked_settings(analysis, settings)
     checked_workers(workers)
     refuse_no_function(maker)
-    if "tolerance" in settings:
-        number(settings["tolerance"], "tolerance", "", above=0.0)
     store = Path(file) if file is not None else None
     if store is not None and store.is_dir():
         raise ModelError(f"{store} is a folder; name a file in it")
-    _fits(f"study, with {analysis}", signature(ANALYSES[analysis]), (None,), settings)
     names, values = sampled_values(parameters, n, sampler, seed, indices)
-    _fits("the maker", signature(maker), (), parameters)
+    fits("the maker", signature(maker), (), parameters)
     head = _head(parameters, values, sampler, seed, analysis, settings, indices)
     done = _kept(store, head)
     tasks = [
@@ -127,15 +123,6 @@ def study(
         indices=indices,
         remarks=tuple(row.get("remarks", "") for row in rows),
     )
-
-
-def _fits(who: str, takes: Signature, first: tuple[None, ...], given: Mapping[str, Any]) -> None:
-    """ModelError where a function does not take what is given by name, before anything is analysed."""
-    try:
-        takes.bind(*first, **given)
-    except TypeError as error:
-        words = ", ".join(list(takes.parameters)[len(first) :])
-        raise ModelError(f"{who} is given {', '.join(given)} ({error}); it takes {words}") from None
 
 
 def _head(

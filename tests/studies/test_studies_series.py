@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 from dataclasses import replace
+from functools import wraps
 
 import numpy as np
 import pytest
@@ -353,3 +354,33 @@ def test_rows_that_fall_are_told_apart():
     said = str(studies.sweep(leaning, (0.9, 0.6, 0.0)))
     assert "least load factor 0.5 at value 0; 1 that fall (NoEquilibrium" in said
     assert "1 without a model (ModelError: too far" in said
+
+
+@pytest.mark.parametrize(
+    ("setting", "words"),
+    [
+        ({"dilatancy": "x"}, "dilatancy is 'x', expected a finite number >= 0"),
+        ({"dilatancy": -0.1}, r"dilatancy is -0\.1, expected"),
+        ({"turning": "here"}, "turning is 'here', expected 'centroid' or"),
+        ({"method": "fast"}, "method is 'fast', expected 'path' or"),
+        ({"means": ["x"]}, "means holds 'x'"),
+        ({"backward_error": -1}, "backward_error is -1, expected a number above 0"),
+        ({"start": "there"}, "start is a str"),
+        ({"tolerance": 0.0}, r"tolerance is 0\.0, expected a finite number > 0"),
+        ({"dilatency": 0.1}, "with nonassociated is given dilatency .*; it takes dilatancy, "),
+    ],
+)
+def test_a_slip_in_a_setting_is_one_error_before_any_row(monkeypatch, setting, words):
+    def ran(model, **_):
+        raise AssertionError("a row was run")
+
+    monkeypatch.setitem(ANALYSES, "nonassociated", wraps(lb.nonassociated)(ran))
+    model, asked = block(), {"analysis": "nonassociated"} | setting
+    for run in (
+        lambda: studies.directions(model, 2, **asked),
+        lambda: studies.moving_load(model, (0.0, 0.0, -1e3), [(0.0, 0.0)], **asked),
+        lambda: studies.sweep(lambda mu: block(), [0.3, 0.4], **asked),
+        lambda: lb.study(lambda mu: block(), {"mu": (0.3, 0.4)}, 2, **asked),
+    ):
+        with pytest.raises(lb.ModelError, match=words):
+            run()

@@ -191,17 +191,24 @@ def _of_resultants(problem: LimitProblem, resultants: Array) -> Array:
     return np.asarray((B.T @ (resultants.ravel() / problem.units.resultants)) * problem.stress_units)
 
 
-def _given(model: Model, problem: LimitProblem, start: Start) -> Array:
+def stresses_given(start: Start) -> Array:
+    """Return the stresses of a result, or given as numbers, to start from; ModelError where it is neither."""
     if isinstance(start, Nonassociated | Bounds):
-        refuse_other(model, start)
-        return np.asarray(start.generalised_stresses / problem.stress_units)
+        return start.generalised_stresses
     try:
-        stresses = reals(start)
+        return reals(start)
     except (TypeError, ValueError):
         raise ModelError(
             f"start is a {type(start).__name__}, expected a result of nonassociated or bounds (of a load path"
             " its collapse), or stresses as numbers, N and N m"
         ) from None
+
+
+def _given(model: Model, problem: LimitProblem, start: Start) -> Array:
+    if isinstance(start, Nonassociated | Bounds):
+        refuse_other(model, start)
+        return np.asarray(start.generalised_stresses / problem.stress_units)
+    stresses = stresses_given(start)
     if stresses.shape == (len(model.interfaces), 6):
         stresses = _of_resultants(problem, stresses)
     stresses = stresses.ravel()
