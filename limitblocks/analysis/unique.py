@@ -8,11 +8,18 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
+from scipy.optimize import linprog
 from scipy.sparse import linalg
 
+from limitblocks.arrays import Array, Indices
+from limitblocks.evidence.mechanism import sparse_columns
 from limitblocks.problem import LimitProblem, State
+from limitblocks.problem.cones import rays
 
 YIELDING = 1e-6  # of the largest strain rate: less is no flow
+READY = 1e-5  # of the terms of the rows of an interface: one with less to spare yields, and may flow
+MOVES = 1e-4  # of the rows that begin to flow by 1 at most: less is no motion of the blocks
+RAYS = 8  # in each plane, of the cones at whose apex the stresses are
 SINGULAR = 1e-8  # least eigenvalue over the diagonal, below which another mechanism exists
 ROUNDS = 8  # of the inverse power method
 REGULAR = 1e-13
@@ -34,8 +41,8 @@ class Yielding:
     state: State
 
     @cached_property
-    def flows(self) -> sparse.csr_array:
-        """Directions of flow, of unit length, of what yields, shape (k, s): one of a linear row or a cone.
+    def _flowing(self) -> tuple[sparse.csr_array, Any, Any]:
+        """Directions of flow, of unit length, of what flows, shape (k, s); what flows, and what at an apex.
 
         A cone whose flow is within the dual one is at its apex, where the flow may turn: each row is one.
         """
@@ -50,8 +57,35 @@ class Yielding:
         apex[: cones.linear] = False
         turning = p.F[np.flatnonzero(apex[cones.member])]
         active = sparse.vstack([flows[np.flatnonzero((strain > least) & ~apex)], turning], format="csr")
-        size = np.sqrt(active.multiply(active).sum(axis=1))
-        return sparse.csr_array(sparse.diags_array(1.0 / size) @ active)
+        return _of_unit_length(active), strain > least, apex
+
+    @cached_property
+    def flows(self) -> sparse.csr_array:
+        """Directions of flow, of unit length, of what flows, shape (k, s): one of a linear row or a cone."""
+        return self._flowing[0]
+
+    @cached_property
+    def ready(self) -> sparse.csr_array:
+        """The same of what yields but does not flow, shape (k, s): it may do so in another mechanism.
+
+        A cone with stresses at its apex may also flow along other rays than one on the boundary.
+        """
+        (p, cones, x), (_, flows, turns) = (self.problem, self.problem.cones, self.state.x), self._flowing
+        z, terms = p.F @ x + p.g, abs(p.F) @ np.abs(x) + np.abs(p.g)
+        most = np.zeros(len(p.interfaces))
+        np.maximum.at(most, p.row_interface, terms)
+        some = READY * most[p.row_interface[cones.heads]]
+        apex = z[cones.heads] <= some
+        yields = (cones.margin(z) <= some) & ~turns & (~flows | apex)
+        linear = np.flatnonzero((yields & ~flows)[: cones.linear])
+        parts: list[tuple[Indices, Array]] = [(linear[:, None], np.ones((len(linear), 1, 1)))]
+        for group in cones.groups:
+            its, every = cones.member[group[:, 0]], rays(group.shape[1], RAYS)
+            on, at = group[yields[its] & ~apex[its]], group[yields[its] & apex[its]]
+            along = np.concatenate([z[on[:, :1]], -z[on[:, 1:]]], axis=1)
+            parts.append((on, along[:, None]))
+            parts.append((at, np.broadcast_to(every, (len(at), *every.shape))))
+        return _of_unit_length(sparse.csr_array(sparse_columns(parts, len(z)).T @ p.F))
 
     @cached_property
     def _factors(self) -> tuple[Any, float]:
@@ -66,7 +100,12 @@ class Yielding:
 
     @property
     def alone(self) -> bool:
-        """Whether no other rates follow the flow of the rows that yield and do the live work 1.
+        """Whether no other rates of live work 1 follow the flow of what flows and of what yields."""
+        return self._follows and not self._begins
+
+    @property
+    def _follows(self) -> bool:
+        """Whether no other rates follow the flow of what flows alone.
 
         With P the projection to the directions of flow, (1 - P) C u = 0 and live.u = 0 leave u = 0: the least
         eigenvalue of C^T (1 - P) C + live live^T, by the inverse power method.
@@ -79,3 +118,27 @@ class Yielding:
             onward = lu.solve(np.append(v, rest))[: len(v)]
             eigenvalue, v = 1.0 / abs(float(v @ onward)), onward
         return bool(eigenvalue > SINGULAR * scale)
+
+    @property
+    def _begins(self) -> bool:
+        """Whether other rates follow where rows that yield without flowing begin to flow, dy >= 0.
+
+        C du = -D^T dy, live.du = 0, of which both programs find rates along a direction if there are any.
+        """
+        p, D, N = self.problem, self.flows, self.ready
+        live = sparse.csr_array(p.live[None])
+        A = sparse.block_array([[p.C, D.T, N.T], [live, None, None]], format="csr")
+        n, k = p.C.shape[1], D.shape[0]
+        program: dict[str, Any] = {"A_eq": A, "b_eq": np.zeros(A.shape[0]), "method": "highs"}
+        program["bounds"] = [(None, None)] * (n + k) + [(0.0, 1.0)] * N.shape[0]
+        along = np.random.default_rng(0).standard_normal(n)
+        for sense in (1.0, -1.0):
+            found = linprog(np.pad(sense * along, (0, A.shape[1] - n)), **program)
+            if found.status or abs(found.fun) > MOVES:
+                return True
+        return False
+
+
+def _of_unit_length(rows: sparse.csr_array) -> sparse.csr_array:
+    size = np.sqrt(rows.multiply(rows).sum(axis=1))
+    return sparse.csr_array(sparse.diags_array(1.0 / size) @ rows)

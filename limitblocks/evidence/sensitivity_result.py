@@ -70,8 +70,8 @@ class Sensitivities(Result):
     weights, frictions : Array, shapes (n,) and (m,)
         Unit weights, N/m3, and friction coefficients of the model, for `governing`.
     unique : bool
-        Whether the mechanism is the only one, so that derivatives by weights and loads are two-sided; without
-        it none need be.
+        Whether the mechanism is the only one, also of those within 1e-5 of yield, so that derivatives by
+        weights and loads are two-sided; without it none need be.
     agreed : ndarray of bool, shape (m,)
         Whether all stress states of the load factor agree on the derivative by the friction of the interface,
         so that it is two-sided if the mechanism is unique.

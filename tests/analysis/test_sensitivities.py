@@ -236,6 +236,17 @@ def test_sliding_and_rocking_at_one_load_are_no_single_mechanism(joint, friction
         assert said == ["in part one-sided"]
 
 
+@pytest.mark.parametrize("joint", [lb.PointContact, lb.OrdunaLourenco])
+@pytest.mark.parametrize("off", [-1e-6, -1e-7, 1e-7, 1e-6])
+def test_a_kink_within_the_digits_of_a_drawing_is_one(joint, off):
+    """min(mu, b/h) with mu = b/h but for 7 or 6 digits: one mechanism is the only one, by so little.
+
+    Its derivative holds for a change of the friction by 1e-7; for all others there are two, 0 and 1.
+    """
+    found = of(structures.block(joint(0.2 * (1.0 + off)), width=0.2, height=1.0))
+    assert not found.unique
+
+
 def test_governing_joints_and_stones_come_first():
     found = of(structures.ferris_tin_loi_wall(1, lb.OrdunaLourenco(0.65)))
     first = found.governing(5)
