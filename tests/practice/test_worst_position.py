@@ -146,3 +146,13 @@ def test_a_vehicle_on_a_design_model_has_gamma_q():
 def force(direction, x):
     """10 kN along a direction at a place of the overhang."""
     return lb.loads.force("beam", 10e3 * np.array(direction), (x, 0, 0.5))
+
+
+def test_no_place_beside_the_worst_position_carries_less():
+    """The definition of worst: on an arch it lies between the places of the search."""
+    arch = lb.structures.arch(lb.PointContact(0.8), radius=5.0, thickness=0.8, voussoirs=11)
+    vehicle, deck = Vehicle((10e3,), contact=0.3), Deck(level=6.0)
+    found = worst_position(arch, vehicle, deck, (-3.0, 3.0), positions=5)
+    for x in found.position + np.array([-0.04, -0.02, 0.02, 0.04]):
+        there = replace(arch, live=vehicle_load(arch, vehicle, found.deck, float(x)))
+        assert lb.bounds(there).lower >= found.bounds.lower * (1.0 - 2e-5)

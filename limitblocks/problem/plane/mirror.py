@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.known import known
-from limitblocks.problem.limit_problem import LimitProblem, Units
+from limitblocks.problem.limit_problem import LimitProblem
 from limitblocks.problem.plane.alike import alike
 from limitblocks.problem.plane.candidates import candidates
 from limitblocks.problem.plane.images import images
@@ -118,25 +118,20 @@ def _mirror_of(problem: LimitProblem) -> Mirror | None:
 
 def _mirror(problem: LimitProblem, strain: Array, empty: Mirror) -> Mirror | None:
     """The mirror with all places; None where the loads or a place are not symmetric."""
-    units, image = problem.units, empty.image
-    if not _loaded_alike(problem, image, empty.rates) or not _same_units(units, image):
+    image = empty.image
+    if not _loaded_alike(problem, image, empty.rates):
         return None
     kinds = []
     for kind in kinds_of(problem, strain):
         mirrored = _mirrored(kind, image, empty.rates)
-        if mirrored is None or not _same_units_at(problem, mirrored):
+        if mirrored is None or not _same_units(problem, mirrored):
             return None
         kinds.append(mirrored)
     return replace(empty, kinds=tuple(kinds))
 
 
-def _same_units(units: Units, image: Indices) -> bool:
-    """Whether blocks are measured by what measures their images."""
-    return all((part[image] == part).all() for part in (units.block_force, units.block_length))
-
-
-def _same_units_at(problem: LimitProblem, kind: Mirrored) -> bool:
-    """Whether places are measured by what measures their images."""
+def _same_units(problem: LimitProblem, kind: Mirrored) -> bool:
+    """Whether places are measured by what measures their images, and so are the blocks that meet there."""
     interface = problem.stress_interface[kind.places.columns[:, 0]]
     sizes = problem.units.interface_force[interface], problem.units.interface_length[interface]
     return all((part[kind.image] == part).all() for part in sizes)
