@@ -265,3 +265,35 @@ def test_remarks_on_a_load_factor_say_that_a_higher_one_is_a_smaller_reaction():
     assert said == (
         "of settling.model, whose load factor is higher where the reaction is smaller: mostly higher",
     )
+
+
+@pytest.mark.parametrize("direction", [(1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0)])
+def test_a_springer_of_a_groin_vault_settles_and_so_does_its_image(direction):
+    """The least reaction is the work of the weights per settlement, the force that the vault presses with.
+
+    The stones balance, each assembled from the forces of its joints; its image in y = 0 has the same one.
+    """
+    vault = lb.structures.groin_vault(
+        lb.PointContact(0.7), radius=1.0, thickness=0.3, length=2.8, courses=3, stone_length=0.8
+    )
+    found = settlement(vault, "right left support", direction, without_dilatancy=False)
+    pair, blocks = found.bounds, {block.name: block for block in found.settling.model.blocks}
+    weights = {block.name: np.array([0.0, 0.0, -block.weight]) for block in vault.free_blocks}
+    rates = dict(zip(blocks, pair.displacement_rates[:, :3], strict=True))
+    work = sum(weights[name] @ rates[name] for name in weights)
+    settled = rates["right left support"] @ direction
+    least = max(abs(found.lower), WEIGHT * 1e-6)
+    assert work / settled == pytest.approx(found.lower, abs=1e-6 * least)
+    force = {name: np.pad(weights.get(name, np.zeros(3)), (0, 3)) for name in blocks}
+    for own, given in zip(vault.interfaces, pair.stress_resultants, strict=False):  # the guide comes last
+        pushed, turned = given[:3] @ own.axes, given[3:] @ own.axes
+        for name, sense in ((own.block_i, 1.0), (own.block_j, -1.0)):
+            moment = turned + np.cross(own.centroid - blocks[name].centroid, pushed)
+            force[name] += sense * np.concatenate([pushed, moment])
+    total = sum(block.weight for block in vault.free_blocks)
+    assert max(np.abs(force[name]).max() for name in weights) < 1e-9 * total
+    assert force["right left support"][:3] @ direction == pytest.approx(found.upper, abs=1e-6 * least)
+    image = settlement(
+        vault, "right right support", np.multiply(direction, (1, -1, 1)), without_dilatancy=False
+    )
+    assert [image.lower, image.upper] == pytest.approx([found.lower, found.upper], abs=1e-6 * least)
