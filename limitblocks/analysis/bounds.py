@@ -165,13 +165,11 @@ def _with_care(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arr
     tell("dead loads, again with care")
     dead = dead_load_state(problem)
     tell("load factor, again with care")
-    tried: list[tuple[Pair, Proof]] = []
-    for pair in islice(pairs_of_bounds(problem, dead, tolerance), PAIRS):
-        tried.append(_proven(pair, dead, tolerance))
+    for raw in islice(pairs_of_bounds(problem, dead, tolerance), PAIRS):
+        pair, proof = _proven(raw, dead, tolerance)
         # small beside what acts on a block may be large beside the live load
-        if tried[-1][1].complete or pair.residuals.worst.value <= tolerance * abs(pair.state.load_factor):
+        if proof.complete or raw.residuals.worst.value <= tolerance * abs(raw.state.load_factor):
             break
-    pair, proof = tried[-1] if tried[-1][1].complete else tried[0]
     if proof.complete and proof.width > tolerance:
         wide = f"proven is only {proof.lower:.6g} to {proof.upper:.6g}, more than {tolerance:g} apart"
         proof = Proof(-np.inf, np.inf, wide, wide)
