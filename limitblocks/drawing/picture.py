@@ -124,9 +124,7 @@ def mechanism_picture(
     named = [(states[k] if states else "stick", model.interfaces[k].name) for k, *_ in lines]
     page = _Page.around(np.concatenate([*(body.points for body in (*before, *after)), *anchors]), view)
     moving = sizes > STILL * max(sizes.max(), 1e-300)
-    kinds = np.where(moving, "moving", "still").tolist()
-    for k, block in enumerate(blocks):
-        kinds[k] = "support" if block.name in model.supports else kinds[k]
+    kinds = np.where(model.free, np.where(moving, "moving", "still"), "support").tolist()
     names = [block.name for block in blocks]
     drawn = [_drawn(*each, view, page) for each in zip(names, kinds, faces, after, strict=True)]
     shown = np.flatnonzero(moving).tolist()

@@ -250,8 +250,6 @@ def _rates(model: Model, claim: Claim) -> Array | None:
     """Rates of the free blocks in SI units, if the claim has rates."""
     if claim.displacement_rates is None:
         return None
-    moving = dict(zip((block.name for block in model.blocks), claim.displacement_rates, strict=True))
-    for name in model.supports:
-        if np.any(moving[name] != 0.0):
-            raise ModelError(f"displacement rates move the support {name!r}, expected zero")
-    return np.concatenate([moving[name] for name in model.problem.blocks])
+    for k in np.flatnonzero(~model.free & claim.displacement_rates.any(axis=1)).tolist():
+        raise ModelError(f"displacement rates move the support {model.blocks[k].name!r}, expected zero")
+    return claim.displacement_rates[model.free].ravel()

@@ -28,8 +28,7 @@ def locked_tension(model: Model, flow: Flow, state: State) -> tuple[str, ...]:
     if flow.associated or not tied.any():
         return ()
     rates = np.zeros((len(model.blocks), 6))
-    free = {block.name for block in model.free_blocks}
-    rates[[block.name in free for block in model.blocks]] = problem.in_si(state).u.reshape(-1, 6)
+    rates[model.free] = problem.in_si(state).u.reshape(-1, 6)
     dq, least = relative_rates(model, rates), MOVING * largest_rate(model, rates)
     N = (problem.resultants @ state.x)[2::6]
     across = np.hypot(dq[:, 0], dq[:, 1])

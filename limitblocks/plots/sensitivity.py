@@ -51,8 +51,7 @@ def sensitivity(
         np.where(np.abs(values) > ROUNDING * abs(sensitivities.load_factor), values, 0.0)
         for values in (sensitivities.of_blocks, sensitivities.of_interfaces)
     )
-    supports = [block.name in model.supports for block in model.blocks]
-    colours = np.where(supports, SUPPORT, _colours(blocks))
+    colours = np.where(model.free, _colours(blocks), SUPPORT)
     points = [block.vertices for block in model.blocks]
     drawn.blocks(points, [block.faces for block in model.blocks], colours.tolist(), edgecolor=PALE)
     largest = float(np.abs(joints).max(initial=0.0))

@@ -65,7 +65,7 @@ def structure(
 def draw_structure(drawn: Canvas, model: Model, **style: Any) -> None:
     """Draw the blocks where they stand, and the frame."""
     points = [block.vertices for block in model.blocks]
-    colours = [SUPPORT if block.name in model.supports else STONE for block in model.blocks]
+    colours = np.where(model.free, STONE, SUPPORT).tolist()
     drawn.blocks(points, [block.faces for block in model.blocks], colours, **style)
     drawn.frame(np.concatenate([*points, *(line.anchors for line in tie_lines(model))]))
 
@@ -149,7 +149,7 @@ def mechanism(
         for block, rate in zip(model.blocks, rates, strict=True)
     ]
     colours = np.where(moving, MOVING, STONE)
-    colours[[block.name in model.supports for block in model.blocks]] = SUPPORT
+    colours[~model.free] = SUPPORT
     drawn.blocks(after, [block.faces for block in model.blocks], colours.tolist())
     outline = [before[k] for k in np.flatnonzero(moving)]
     draw_ties(drawn, [moved(model, line, factor * rates) for line in tie_lines(model)])

@@ -59,7 +59,7 @@ class Line:
 
         That of an even load is the integral of the velocity downwards, which is linear along each stretch.
         """
-        moving = rates[[block.name not in self.model.supports for block in self.model.blocks]][self.owner]
+        moving = rates[self.model.free][self.owner]
         off = self.ends[:-1] - self.centres[self.owner, 0], self.deck.y - self.centres[self.owner, 1]
         on, length = self.owner >= 0, np.diff(self.ends)
         first = np.where(on, moving[:, 4] * off[0] - moving[:, 3] * off[1] - moving[:, 2], 0.0)

@@ -157,8 +157,7 @@ def other_mechanisms(model: Model, collapse: Any, share: float, *, curve: bool) 
     if share >= 1.0 - ALIKE and not curve:
         return ()
     problem = model.problem
-    free = [block.name not in model.supports for block in model.blocks]
-    rates = collapse.displacement_rates[free].ravel()
+    rates = collapse.displacement_rates[model.free].ravel()
     si = State(float(collapse.load_factor), collapse.generalised_stresses, rates, collapse.flow_multipliers)
     flow = Flow(problem, collapse.dilatancy, turning_of(collapse.turning))
     shares = np.repeat(np.arange(len(problem.blocks)) * GOLDEN % 1.0, 6)  # numbers without a pattern

@@ -39,7 +39,7 @@ def closed_up(
     stuck = np.repeat(fixed, [len(own) for own in held])
     size = np.array([block.size for block in assembly.model.blocks])
     scale = np.repeat(np.stack([np.ones_like(size), 1.0 / size], axis=1), 3, axis=1)
-    supports = [block.name in assembly.model.supports for block in assembly.model.blocks]
+    supports = ~assembly.model.free
     scale[supports] = 0.0
     along = None if along is None or along[supports].any() else along
     barred = np.zeros((0, scale.size)) if along is None else scale.reshape(1, -1) * along.reshape(1, -1)

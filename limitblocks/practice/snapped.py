@@ -89,8 +89,7 @@ def snapped(assembly: Assembly) -> tuple[Assembly, tuple[str, ...]]:
 
 def steepest(assembly: Assembly) -> tuple[Array, float]:
     """Return displacements (n, 6) in which the dead loads do most work, and its share of what they could."""
-    model = assembly.model
-    free = np.array([block.name not in model.supports for block in model.blocks])
+    model, free = assembly.model, assembly.model.free
     size = np.array([block.size for block in model.blocks])
     scale = TURN * np.repeat(np.stack([size, np.ones_like(size)], axis=1), 3, axis=1)
     dead, live = np.zeros_like(scale), np.zeros_like(scale)

@@ -112,7 +112,7 @@ def _blocks(model: Model, origin: Array) -> dict[str, Any]:
             "material": [block.material for block in model.blocks],
             "groups": [", ".join(block.groups) for block in model.blocks],
             "colour": [block.colour for block in model.blocks],
-            "support": [k for k, block in enumerate(model.blocks) if block.name in model.supports],
+            "support": np.flatnonzero(~model.free).tolist(),
         },
     }
 

@@ -109,10 +109,7 @@ def _blocks(model: Model, state: Array | None, field: dict[str, float]) -> bytes
     starts = np.cumsum([0, *(len(block.vertices) for block in blocks)]).tolist()
     polygons = [np.add(face, starts[k]) for k, block in enumerate(blocks) for face in block.faces]
     owner = np.repeat(np.arange(len(blocks)), [len(block.faces) for block in blocks])
-    held = set(model.supports)
-    of: dict[str, Any] = {
-        "support": np.array([block.name in held for block in blocks], dtype=np.int64)
-    } | _labels(blocks)
+    of: dict[str, Any] = {"support": (~model.free).astype(np.int64)} | _labels(blocks)
     moves = (
         {}
         if state is None
