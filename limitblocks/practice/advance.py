@@ -85,7 +85,7 @@ def advanced(assembly: Assembly, control: Control, rates: Array, step: float) ->
 
     The step is cut where a contact closes.
     """
-    pace = float(velocity(assembly, control, rates) @ control.direction)
+    pace = float(velocity(assembly.model, control, rates) @ control.direction)
     found = moved_until_contact(assembly, step / pace * rates)
     if found is None:
         return None
@@ -218,10 +218,10 @@ def carried(assembly: Assembly, goal: Assembly, control: Control) -> Control:
     return replace(control, point=read_only(new.centroid + (control.point - old.centroid) @ turn))
 
 
-def velocity(assembly: Assembly, control: Control, rates: Array) -> Array:
+def velocity(model: Model, control: Control, rates: Array) -> Array:
     """Return the velocity of the control point, shape (3,)."""
-    k = [block.name for block in assembly.model.blocks].index(control.block)
-    arm = control.point - assembly.model.blocks[k].centroid
+    k = [block.name for block in model.blocks].index(control.block)
+    arm = control.point - model.blocks[k].centroid
     return np.asarray(rates[k, :3] + np.cross(rates[k, 3:], arm))
 
 

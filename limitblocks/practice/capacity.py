@@ -118,7 +118,7 @@ def _curve(
         if point.displacement >= end - CLOSED * whole:  # what is left moves nothing
             size = "" if largest <= whole else ", the size of the structure,"
             return f"the displacement {end:g} m{size} is reached"
-        if not (pace := _pace(assembly, control, point.result.displacement_rates)) > STILL:
+        if not (pace := _pace(assembly.model, control, point.result.displacement_rates)) > STILL:
             return (
                 f"the control point of block {control.block!r} moves along the live load no more at "
                 f"{point.displacement:.6g} m; take one that goes on with the mechanism"
@@ -217,13 +217,13 @@ def _control(model: Model, result: Nonassociated, given: Any) -> Control:
             raise ModelError(f"control is {given!r}, expected a block and a point, ('wall', (0.5, 0, 5))")
         block, point = control_point(model, *given)
     control = Control(block.name, read_only(point), direction)
-    if not _pace(moving.assembly_of(model), control, rates) > STILL:
+    if not _pace(model, control, rates) > STILL:
         raise ModelError(f"the control point of block {block.name!r} does not move along the live load")
     return control
 
 
-def _pace(assembly: Assembly, control: Control, rates: Array) -> float:
+def _pace(model: Model, control: Control, rates: Array) -> float:
     """Speed of the control point along the live load over the largest of a centroid."""
     return float(
-        velocity(assembly, control, rates) @ control.direction / np.linalg.norm(rates[:, :3], axis=1).max()
+        velocity(model, control, rates) @ control.direction / np.linalg.norm(rates[:, :3], axis=1).max()
     )

@@ -10,6 +10,7 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.evidence.relative_rates import largest_rate
 from limitblocks.model import Model, refuse_other
+from limitblocks.practice.advance import velocity
 from limitblocks.practice.capacity_result import CapacityCurve, zero_of
 from limitblocks.practice.moving_masses import MovingMass, moving_masses
 
@@ -46,9 +47,7 @@ def per_control(
             f"the capacity curve says that it is zero at {curve.zero:g} m; by its last points, at {zero:g} m"
         )
     _refuse_other_mechanism(model, alpha, rates, curve)
-    k = [block.name for block in model.blocks].index(curve.control.block)
-    arm = curve.control.point - model.blocks[k].centroid
-    delta = float((rates[k, :3] + np.cross(rates[k, 3:], arm)) @ curve.control.direction)
+    delta = float(velocity(model, curve.control, rates) @ curve.control.direction)
     P, x = (np.array([getattr(one, of) for one in masses]) for of in ("weight", "horizontal"))
     return float(P @ x**2) / (delta * float(P @ x))
 
