@@ -219,7 +219,7 @@ def bounds_residuals(flow: Flow, state: State, upper: float) -> Residuals:
             residual("gap", upper - state.load_factor, "gap between the bounds", measure.load_factor),
             residual(
                 "worth",
-                worth_of_violations(problem, state, measure),
+                worth_of_violations(measure),
                 "what the violations of both states may be worth in the load factor, over it",
                 measure.load_factor,
             ),
@@ -227,20 +227,19 @@ def bounds_residuals(flow: Flow, state: State, upper: float) -> Residuals:
     )
 
 
-def worth_of_violations(problem: LimitProblem, state: State, measure: Measure | None = None) -> float:
+def worth_of_violations(measure: Measure) -> float:
     """Return what the violations of a pair of bounds may be worth in the load factor, dimensionless.
 
     With r the unbalanced loads, f = C u + F^T y and s = F x + g, identically
     upper - lower = s.y - x.f - r.u + lower (live.u - 1), and s.y >= 0 for s and y in K. All other terms, and
     those that put s and y into K, are added up in size: violations of 1e-10 may hide a gap of 1e-6.
     """
+    problem, state, s = measure.problem, measure.state, measure.slack
     x, u, y, cones = state.x, state.u, state.y, problem.cones
-    measure = measure or Measure(problem, state)
-    s, unbalanced = measure.slack, measure.unbalanced
     outside = [np.maximum(-cones.margin(rows), 0.0) for rows in (s, y)]
     return float(
         np.abs(x) @ np.abs(measure.broken)
-        + np.abs(unbalanced) @ np.abs(u)
+        + np.abs(measure.unbalanced) @ np.abs(u)
         + abs(state.load_factor * (problem.live @ u - 1.0))
         + outside[0] @ np.abs(y[cones.heads])
         + outside[1] @ np.abs(s[cones.heads])

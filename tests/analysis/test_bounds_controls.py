@@ -13,6 +13,7 @@ from stones import model_of, sloping
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis import definite, programs
+from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.residuals import OF_BOUNDS, bounds_residuals, worth_of_violations
 from limitblocks.problem import ASSOCIATED, Flow, State
 
@@ -27,8 +28,7 @@ def solved(request):
     """The associated flow of a wall, its solution as a dimensionless state, and the upper bound."""
     model = structures.wall(request.param, length=0.8, courses=3, direction=(1, 0.5, 0))
     problem, found = model.problem, lb.bounds(model)
-    free = [k for k, block in enumerate(model.blocks) if block.name not in model.supports]
-    rates = found.displacement_rates[free].ravel()
+    rates = found.displacement_rates[model.free].ravel()
     state = State(found.lower, found.generalised_stresses, rates, found.flow_multipliers)
     return Flow(problem, ASSOCIATED), problem.dimensionless(state), found.upper * problem.units.live
 
@@ -205,12 +205,12 @@ def test_violations_are_worth_what_they_change(solved):
     """Weak duality, upper >= lower, once the violations are paid for; and before that not."""
     flow, state, _ = solved
     problem = flow.problem
-    assert worth_of_violations(problem, state) < 1e-6 * state.load_factor
+    assert worth_of_violations(Measure(problem, state)) < 1e-6 * state.load_factor
     rng, gaps = np.random.default_rng(0), []
     for size in np.repeat([1e-6, 1e-3], 10):
         dx, du, dy = (v + size * rng.normal(size=len(v)) for v in (state.x, state.u, state.y))
         gaps.append(problem.g @ dy - problem.dead @ du - state.load_factor)
-        assert gaps[-1] >= -worth_of_violations(problem, State(state.load_factor, dx, du, dy))
+        assert gaps[-1] >= -worth_of_violations(Measure(problem, State(state.load_factor, dx, du, dy)))
     assert min(gaps) < 0.0
 
 

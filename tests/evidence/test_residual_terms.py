@@ -44,20 +44,20 @@ def test_a_lower_bound_above_the_upper_is_worth_the_difference(problem):
     """
     p, a = problem, 0.3
     nothing = State(a, np.zeros(p.C.shape[0]), np.zeros(p.C.shape[1]), np.zeros(len(p.g)))
-    assert worth_of_violations(p, nothing) == pytest.approx(a)
+    assert worth_of_violations(Measure(p, nothing)) == pytest.approx(a)
     assert (p.cones.margin(p.g) >= 0.0).all()
     inward = replace(nothing, y=-0.5 * p.cones.identity)  # multipliers outside K, by as much of the slack g
-    assert worth_of_violations(p, inward) == pytest.approx(a + 0.5 * p.g[p.cones.heads].sum())
+    assert worth_of_violations(Measure(p, inward)) == pytest.approx(a + 0.5 * p.g[p.cones.heads].sum())
     u = p.live / (p.live @ p.live) + 0.01 * p.dead
     u = u / (p.live @ u)
     moving = replace(nothing, u=u)
-    assert worth_of_violations(p, moving) >= (a + p.dead @ u) * (1.0 - 1e-12) > 0.0
+    assert worth_of_violations(Measure(p, moving)) >= (a + p.dead @ u) * (1.0 - 1e-12) > 0.0
     random = np.random.default_rng(3)
     for _ in range(20):
         x, v, y = (random.normal(size=n) for n in (*p.C.shape, len(p.g)))
         state = State(a, x, v, y)
         upper = p.g @ y - p.dead @ v
-        assert a - upper <= worth_of_violations(p, state) * (1.0 + 1e-12)
+        assert a - upper <= worth_of_violations(Measure(p, state)) * (1.0 + 1e-12)
 
 
 def test_a_negative_multiplier_counts_the_same_in_any_unit_of_its_row(problem):
