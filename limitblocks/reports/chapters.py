@@ -26,7 +26,7 @@ from limitblocks.reports.document import (
     Text,
 )
 from limitblocks.reports.facts import assumptions, fact_rows
-from limitblocks.reports.interfaces import ELEMENT_HEADS, Active, active_interfaces, element_rows
+from limitblocks.reports.interfaces import ELEMENT_HEADS, HEADS, Active, active_interfaces, element_rows
 from limitblocks.reports.labels import Labels
 from limitblocks.reports.section import LEGEND, Section
 from limitblocks.reports.words import acceleration
@@ -86,7 +86,7 @@ def document(
     shown = []
     for one, result in zip(sections, results, strict=True):
         moving = picture if one is drawn else None
-        table = _interfaces(model, result, one, place)
+        table = _interfaces(model, result, place)
         shown.append(chapter(one, moving, title, table))
         place += bool(table)
     warnings = [warning for one in sections for warning in one.warnings] + known["warnings"]
@@ -183,8 +183,8 @@ def _assumptions(model: Model) -> Chapter:
     return Chapter("Assumptions", tuple(parts))
 
 
-def _interfaces(model: Model, result: Any, one: Section, place: int) -> tuple[Part, ...]:
-    table = active_interfaces(model, result, one.title)
+def _interfaces(model: Model, result: Any, place: int) -> tuple[Part, ...]:
+    table = active_interfaces(model, result)
     if table is None:
         return ()
     elements = element_rows(model, result)
@@ -197,7 +197,7 @@ def _active(table: Active, place: int) -> tuple[Part, ...]:
     caption = f"Interfaces that do not stick: {table.active} of {table.interfaces}{shown}"
     if not table.rows:
         return (Text(caption),)
-    return (Table(f"{caption}. {table.note}", table.heads, table.rows, table.right, scene_result=place),)
+    return (Table(f"{caption}. {table.note}", HEADS, table.rows, tuple(range(2, 10)), scene_result=place),)
 
 
 def _findings(known: dict[str, Any]) -> Chapter:

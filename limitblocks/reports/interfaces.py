@@ -28,15 +28,12 @@ TIGHT = "N and utilisation of a prestressed tie are those beyond its prestress, 
 
 
 class Active(NamedTuple):
-    """Interfaces that do not stick: title of the result, heads, rows, how many there are of how many."""
+    """Interfaces that do not stick: rows, how many there are of how many, and what to know."""
 
-    title: str
-    heads: tuple[str, ...]
     rows: tuple[tuple[Cell, ...], ...]
     active: int
     interfaces: int
-    note: str = MOVES
-    right: tuple[int, ...] = tuple(range(2, 10))
+    note: str
 
 
 HEADS = (
@@ -45,7 +42,7 @@ HEADS = (
 )  # fmt: skip
 
 
-def active_interfaces(model: Model, result: Any, title: str) -> Active | None:
+def active_interfaces(model: Model, result: Any) -> Active | None:
     """Return the interfaces that do not stick at collapse; None for a result without a mechanism."""
     if not in_scene(result):
         return None
@@ -60,7 +57,7 @@ def active_interfaces(model: Model, result: Any, title: str) -> Active | None:
     rows = tuple(_row(states, resultants[k], float(moves[k]), k) for k in shown[:MOST])
     tight = any(isinstance(one.joint, Tie) and one.joint.prestress for one in model.interfaces)
     note = f"{MOVES} {TIGHT}" if tight else MOVES
-    return Active(title, HEADS, rows, len(shown), len(states.names), note)
+    return Active(rows, len(shown), len(states.names), note)
 
 
 def relative_motion(model: Model, rates: Array) -> Array:

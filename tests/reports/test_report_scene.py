@@ -152,14 +152,14 @@ def test_numbers_are_short_and_noise_is_zero():
 
 def test_interfaces_that_stick_are_left_out_and_those_that_move_most_come_first(arch, results):
     states = interface_states(arch, results[0])
-    table = active_interfaces(arch, results[0], "bounds")
+    table = active_interfaces(arch, results[0])
     moving = {name for name, word in zip(states.names, states.state, strict=True) if word != "stick"}
     assert {row[0].text for row in table.rows} == moving
     assert table.active == len(moving) <= MOST
     keys = [(-round(row[2].value, 3), -round(row[3].value, 3)) for row in table.rows]  # moves, utilisation
     assert keys == sorted(keys)
     assert table.rows[0][2].value == 1.0
-    assert active_interfaces(arch, lb.check_mcp(arch, results[1].collapse), "check") is None
+    assert active_interfaces(arch, lb.check_mcp(arch, results[1].collapse)) is None
     assert [row["name"] for row in interface_rows(arch, results[0])] == list(states.names)
 
 
