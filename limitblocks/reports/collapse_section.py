@@ -13,8 +13,8 @@ from limitblocks.reports.section import LEGEND, Section
 from limitblocks.reports.words import cut, figures, kilonewtons
 
 FOLLOWING = (
-    "{} at a settlement of {:.6g} m, drawn as it then is, and the mechanism that follows the support, {:.3g} "
-    "times, linearly. Dashed: the moving blocks before they move on."
+    "The structure at a settlement of {:.6g} m, drawn as it then is, and the mechanism that follows the "
+    "support, {:.3g} times, linearly. Dashed: the moving blocks before they move on."
 )
 _GAPS, _FALLS = "no joint presses across a gap", ", then it falls"
 
@@ -59,7 +59,7 @@ def _figure(curve: SettlementCurve) -> Figure:
     end = last.found.result or last.found.bounds
     picture = mechanism_picture(last.found.settling.model, end.displacement_rates, pushed=False)
     drawn = picture.sheet(f"The structure at a settlement of {last.displacement:.6g} m")
-    return Figure(drawn, FOLLOWING.format("The structure", last.displacement, picture.magnification), LEGEND)
+    return Figure(drawn, FOLLOWING.format(last.displacement, picture.magnification), LEGEND)
 
 
 def _points(curve: SettlementCurve) -> Table:

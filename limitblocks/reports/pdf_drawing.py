@@ -34,7 +34,6 @@ _LINES = {
     "tie-slack": (_QUIET, 1.2, 3.0),
 }
 _LETTER = 17.0  # user units
-_ANCHORS = {"start": "start", "middle": "middle", "end": "end"}
 
 
 def drawing(sheet: Sheet, wide: float, latin: Callable[[str], str]) -> Drawing:
@@ -86,7 +85,7 @@ def _lines(shapes: Shapes, scale: float) -> list[Any]:
 def _label(label: Label, latin: Callable[[str], str]) -> Group:
     text = String(
         0, 0, latin(label.text), fontName="Helvetica", fontSize=_LETTER, fillColor=HexColor(_QUIET),
-        textAnchor=_ANCHORS[label.style.split()[0]],
+        textAnchor=label.style.split()[0],
     )  # fmt: skip
     # the page's y axis points upwards again for texts
     turned = (0, -1, -1, 0, label.x, label.y) if label.upwards else (1, 0, 0, -1, label.x, label.y)
