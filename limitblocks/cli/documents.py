@@ -36,7 +36,6 @@ from limitblocks.cli.options import (
 )
 from limitblocks.errors import LimitBlocksError
 
-_SUFFIX = ".html"
 PARAVIEW = (".vtu", ".pvd")  # the second of load paths
 MOST = 10**6  # lines kept
 
@@ -92,7 +91,7 @@ def report(
         from limitblocks.reports import files
         from limitblocks.reports import report as reported
 
-        file = output or model.with_suffix(_SUFFIX)
+        file = output or model.with_suffix(".html")
         refuse_existing(file, force, model, *results)
         files.suffix(file)  # before the analysis, not after it
         structure = read(model)

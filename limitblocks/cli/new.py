@@ -27,8 +27,9 @@ NewFile = Annotated[
     Path | None,
     typer.Option("--output", "-o", metavar="MODEL", help="Model file (JSON) [default: STRUCTURE.json]."),
 ]
-COMMON: dict[str, tuple[Any, Any]] = {"joint": (JointName, DEFAULT), "friction": (Friction, ...)}
-COMMON |= {
+COMMON: dict[str, tuple[Any, Any]] = {
+    "joint": (JointName, DEFAULT),
+    "friction": (Friction, inspect.Parameter.empty),
     "slip": (Slip, None),
     "compressive_strength": (Strength, None),
     "output": (NewFile, None),
@@ -51,8 +52,6 @@ def command(make: Callable[..., Any]) -> Callable[..., None]:
     own = {p.name: p for p in _options(make)}
     common = {
         name: inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=hint)
-        if default is not ...
-        else inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, annotation=hint)
         for name, (hint, default) in COMMON.items()
     }
 
