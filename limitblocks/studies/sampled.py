@@ -111,7 +111,8 @@ def study(
     except KeyboardInterrupt:
         if not done:
             raise
-    rows = [done.get(k) or _undone(k) for k in range(len(values))]
+    undone = {"load_factor": np.nan, "mode": "", "error": INTERRUPTED}
+    rows = [done.get(k, undone) for k in range(len(values))]
     return SampledStudy(
         analysis=analysis,
         names=names,
@@ -237,16 +238,9 @@ def _answers(tasks: Sequence[tuple[Any, ...]], workers: int | None, client: Any)
         from importlib import import_module
 
         completed = import_module("dask.distributed").as_completed
-        yield from (future.result() for future in completed(client.map(_of_task, tasks, pure=False)))
+        futures = [client.submit(one_row, *task, pure=False) for task in tasks]
+        yield from (future.result() for future in completed(futures))
         return
     rest: Iterable[tuple[Any, ...]] = iter(tasks)
     while batch := list(islice(rest, AT_ONCE)):
         yield from in_order(one_row, batch, workers)
-
-
-def _of_task(task: tuple[Any, ...]) -> Row:
-    return one_row(*task)
-
-
-def _undone(k: int) -> Row:
-    return {"row": k, "load_factor": np.nan, "mode": "", "error": INTERRUPTED}
