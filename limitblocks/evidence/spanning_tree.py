@@ -45,7 +45,7 @@ def spanning_tree(problem: LimitProblem, room: Array) -> Tree:
     between = pairs[:, 0] * (n + 1) + pairs[:, 1]
     pair, first = np.unique(between[order], return_index=True)
     best = order[first]  # of several between two blocks
-    i, j = pairs[best].T.astype(np.int32)  # scipy before 1.15 has no ways in graphs of longer indices
+    i, j = pairs[best].T
     graph = sparse.csr_array((length[best], j, np.searchsorted(i, np.arange(n + 2))), shape=(n + 1, n + 1))
     _, ways = csgraph.dijkstra(graph, directed=False, indices=[n], return_predecessors=True)
     parent = np.asarray(ways[0, :n], dtype=np.int64)
