@@ -19,6 +19,7 @@ from limitblocks.geometry.contacts import Contacts
 from limitblocks.geometry.faces import FaceTable, face_table, opposed, surfaces_of
 from limitblocks.geometry.mend import mended
 from limitblocks.geometry.neighbours import neighbours
+from limitblocks.geometry.overlap import solid_of
 from limitblocks.geometry.patches import covering, mean_width, patches
 from limitblocks.geometry.regions import regions
 from limitblocks.geometry.through import between
@@ -141,18 +142,16 @@ def heal(blocks: Sequence[Block], accuracy: float | None = None) -> Healed:
 
 def _coarse(block: Block, tolerance: float) -> Block:
     """Return a mesh with as few facets as its surface within `tolerance`, m, allows; others as given."""
-    from manifold3d import Manifold, Mesh64
-
     if block.convex and max(map(len, block.faces)) > 3:
         return block
-    solid = Manifold(Mesh64(np.array(block.vertices), block.triangles.astype(np.uint64)))
+    solid = solid_of(block, block.vertices)
     quarter = 0.5 * solid.volume() / solid.surface_area()  # of the thickness: a sheet would become a wedge
     simple = solid.set_tolerance(min(tolerance, quarter))
     if not 4 <= simple.num_tri() < solid.num_tri():
         return block
     mesh = simple.to_mesh64()
     try:
-        return Block(block.name, mesh.vert_properties[:, :3], mesh.tri_verts.tolist(), block.unit_weight)
+        return Block(block.name, mesh.vert_properties[:, :3], mesh.tri_verts.tolist())
     except GeometryError:
         return block
 
@@ -233,6 +232,6 @@ def _placed(points: Array, pairs: Indices, planes: Planes) -> Array:
 def _rebuilt(block: Block, points: Array) -> Block | None:
     """Return a block with its vertices at `points` and its facets merged; None where that is no block."""
     try:
-        return mended(block.name, points, block.faces, block.unit_weight)[0]
+        return mended(block.name, points, block.faces)[0]
     except GeometryError:
         return None

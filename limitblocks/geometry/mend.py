@@ -15,7 +15,7 @@ from limitblocks.geometry import coplanar
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.cracks import closed, clusters, edges_of, open_sides, renumbered, sides_of, tidy
 from limitblocks.geometry.given import wrong
-from limitblocks.geometry.polyhedron import PLANE_TOLERANCE, Faces, odd_places
+from limitblocks.geometry.polyhedron import PLANE_TOLERANCE, Faces, compacted, odd_places
 from limitblocks.geometry.twisted import Twisted, fitted, triangulated, warps
 from limitblocks.shown import many
 
@@ -32,7 +32,6 @@ def mended(
     name: str,
     vertices: npt.ArrayLike,
     faces: Iterable[Sequence[int]],
-    unit_weight: float | None = None,
     twisted: Twisted = "refuse",
 ) -> tuple[Block, tuple[str, ...]]:
     """Return the block enclosed by the polygons of one solid, and what had to be mended, a line each.
@@ -50,8 +49,6 @@ def mended(
         Global axes, m.
     faces : iterable of sequences of int
         Vertex indices around each face, in either sense.
-    unit_weight : float, optional
-        N/m3.
     twisted : {"refuse", "triangulate", "fit"}
         What becomes of faces whose corners lie in no plane, within 1e-3 of the block's size: an error;
         triangles; or planes that fit the corners best, into which the vertices go.
@@ -81,10 +78,8 @@ def mended(
     if warp > WELD * size:
         notes.append(f"faces made of several pieces are flat within {warp:.2g} m, and taken as flat")
     points, loops = _untwisted(name, points, loops, size, twisted, notes)
-    used, places = np.unique(np.concatenate([np.asarray(loop) for loop in loops]), return_inverse=True)
-    ends = np.cumsum([len(loop) for loop in loops])[:-1]
-    rings = tuple(tuple(part.tolist()) for part in np.split(places, ends))
-    block = Block(name, points[used], rings, unit_weight)
+    used, rings = compacted(loops)
+    block = Block(name, points[used], rings)
     return block, tuple(f"block {name!r}: {note}" for note in notes)
 
 
@@ -141,7 +136,7 @@ def _checked(name: str, vertices: npt.ArrayLike, faces: Iterable[Sequence[int]])
         wrong(name, f"vertex {k} is {_place(points[k])}; finite numbers up to 1e30 are needed")
     number = np.zeros(len(points), dtype=np.int64)
     number[used] = np.arange(len(used))
-    return points[used], tuple(tuple(number[list(loop)].tolist()) for loop in loops)
+    return points[used], renumbered(loops, number)
 
 
 def _welded(
@@ -208,9 +203,9 @@ def _untwisted(
     which = np.flatnonzero(off > PLANE_TOLERANCE * size)
     if not len(which):
         return points, loops
+    places = ", ".join(_place(points[vertex]) for vertex in loops[int(off.argmax())][:4])
     if np.isinf(off.max()):
-        corners = ", ".join(_place(points[vertex]) for vertex in loops[int(off.argmax())][:4])
-        wrong(name, f"a face crosses itself, and has no area: {corners}, ...; list its corners in turn")
+        wrong(name, f"a face crosses itself, and has no area: {places}, ...; list its corners in turn")
     said = f"twisted faces: {len(which)} of {len(loops)}, corners up to {off.max():.3g} m out of their planes"
     if twisted == "triangulate":
         notes.append(f"{said}, divided into triangles")
@@ -223,7 +218,6 @@ def _untwisted(
     why = (
         "; no planes fit, " if twisted == "fit" else f"; at most {PLANE_TOLERANCE * size:.3g} m is allowed, "
     )
-    places = ", ".join(_place(points[vertex]) for vertex in loops[int(off.argmax())][:4])
     remedy = "triangulate" if twisted == "fit" else "triangulate or fit"
     raise TwistedFaces(
         f"block {name!r}: {said}, the worst is {places}, ...{why}ask for --twisted {remedy} (twisted=...)",

@@ -48,7 +48,7 @@ def find_overlaps(
         return ()
     bodies = {k: _Body.of(blocks[k], points[k]) for k in np.unique(pairs).tolist()}
     depths = np.minimum(_face_depths(bodies, pairs), _face_depths(bodies, pairs[:, ::-1]))
-    solid = cache(lambda k: _solid(blocks[k], points[k]))
+    solid = cache(lambda k: solid_of(blocks[k], points[k]))
     overlaps = []
     deep = depths > limits
     for (i, j), face_depth, limit in zip(
@@ -70,7 +70,8 @@ def find_overlaps(
     return tuple(overlaps)
 
 
-def _solid(block: Block, points: Array) -> Any:
+def solid_of(block: Block, points: Array) -> Any:
+    """Return a block with its vertices at `points` as a solid of manifold3d."""
     from manifold3d import Manifold, Mesh64
 
     return Manifold(Mesh64(np.array(points), block.triangles.astype(np.uint64)))

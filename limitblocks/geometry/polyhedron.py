@@ -62,6 +62,13 @@ def prism(outline: Array, low: float, high: float, axis: int) -> tuple[Array, Fa
     return vertices, (tuple(range(n)), tuple(reversed(range(n, 2 * n))), *sides)
 
 
+def compacted(loops: Faces) -> tuple[Indices, Faces]:
+    """Return the vertices that faces use, in order, and the faces over these alone."""
+    used, place = np.unique(np.concatenate(loops), return_inverse=True)
+    ends = np.cumsum([len(loop) for loop in loops])[:-1]
+    return used, tuple(tuple(part.tolist()) for part in np.split(place.reshape(-1), ends))
+
+
 @lru_cache(maxsize=1024)
 def mesh(faces: Faces) -> Mesh:
     """Return the half-edges of `faces` (vertex indices, counter-clockwise seen from outside)."""

@@ -15,7 +15,7 @@ from limitblocks.geometry.coplanar import area_vectors
 from limitblocks.geometry.cracks import clusters, edges_of, renumbered, sides_of
 from limitblocks.geometry.mend import WELD, closes
 from limitblocks.geometry.neighbours import bounds_of
-from limitblocks.geometry.polyhedron import Faces
+from limitblocks.geometry.polyhedron import Faces, compacted
 from limitblocks.geometry.surface import winding
 from limitblocks.io.solid import Solid
 
@@ -45,7 +45,7 @@ def worded(
 ) -> list[Solid]:
     """Return the solids as `solids` does, each with the words that most of its faces have.
 
-    `owner` has for each face the place of its words, keys of :data:`limitblocks.io.solid.WORDS`, in `words`.
+    `owner` has for each face the place of its words, keys of `limitblocks.geometry.block.WORDS`, in `words`.
     """
     found = surfaces(name, points, faces)
     most = [Counter(owner[k] for k in one.which).most_common(1)[0][0] for one in found]
@@ -71,15 +71,9 @@ def surfaces(name: str, points: Array, faces: Sequence[Sequence[int]]) -> list[S
     groups = _groups(name, points, loops) if _in_range(points, loops) else [list(range(len(loops)))]
     if len(groups) > 1:
         groups = _with_cavities(points, loops, groups)
-    bodies = []
-    for group in groups:
-        used, number = np.unique(np.concatenate([loops[k] for k in group]), return_inverse=True)
-        if len(groups) == 1:
-            return [Surface(np.arange(len(points)), loops, range(len(loops)))]
-        ends = np.cumsum([len(loops[k]) for k in group])[:-1]
-        parts = tuple(tuple(part.tolist()) for part in np.split(number.reshape(-1), ends))
-        bodies.append(Surface(used, parts, group))
-    return bodies
+    if len(groups) == 1:
+        return [Surface(np.arange(len(points)), loops, range(len(loops)))]
+    return [Surface(*compacted(tuple(loops[k] for k in group)), group) for group in groups]
 
 
 def _in_range(points: Array, loops: Faces) -> bool:
