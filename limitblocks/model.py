@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from limitblocks.errors import ModelError, few, missing, sequence_of
 from limitblocks.geometry import Block, Interface, Tolerances
+from limitblocks.geometry.block import WORDS
 from limitblocks.geometry.contact import nearly_tied
 from limitblocks.geometry.ends import floating
 from limitblocks.geometry.given_interfaces import interface_faults
@@ -29,7 +30,6 @@ from limitblocks.shown import Viewed, kept, many
 from limitblocks.written import tagged, write
 
 SCHEMA_VERSION = 1
-_WORDS = ("layer", "material", "groups", "colour")
 # results keep the hash of their model, not the model: copies in other processes and saved ones stay small
 _MODELS: WeakSet[Model] = WeakSet()  # whose digest was asked for; equal ones may come and go
 
@@ -115,7 +115,7 @@ class Model(Viewed):
         columns = [
             [faces.setdefault(block.faces, len(faces)) for block in blocks],
             list(faces),
-            *([getattr(block, key) or None for block in blocks] for key in ("name", *_WORDS)),
+            *([getattr(block, key) or None for block in blocks] for key in ("name", *WORDS)),
             [(block.unit_weight, len(block.vertices)) for block in blocks],
             [(i.block_i, i.block_j, joint[id(i.joint)], len(i.polygon)) for i in interfaces],
             [SCHEMA_VERSION, self.name, self.supports, joints, self._loads],
@@ -153,7 +153,7 @@ class Model(Viewed):
                     "vertices": block.vertices.tolist(),
                     "faces": [list(face) for face in block.faces],
                     "unit_weight": block.unit_weight,
-                    **{key: word for key in _WORDS if (word := getattr(block, key))},
+                    **{key: word for key in WORDS if (word := getattr(block, key))},
                 }
                 for block in self.blocks
             ],

@@ -18,7 +18,7 @@ from limitblocks.geometry.polyhedron import Faces, Mesh, Shape
 
 _CORNERS = np.array([(x, y, z) for z in (-0.5, 0.5) for y in (-0.5, 0.5) for x in (-0.5, 0.5)])
 AXES = ("x", "y", "z")
-_WORDS = ("unit_weight", "layer", "material", "groups", "colour")
+WORDS = ("layer", "material", "groups", "colour")  # what a block says of itself beside shape and weight
 _BOX_FACES = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
 
 
@@ -190,7 +190,7 @@ class Block(Sealed):
     @property
     def words(self) -> dict[str, Any]:
         """Unit weight, layer, material, groups and colour, as :meth:`labelled` takes them."""
-        return {key: getattr(self, key) for key in _WORDS}
+        return {key: getattr(self, key) for key in ("unit_weight", *WORDS)}
 
     def moved(self, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> Block:
         """Return a copy with vertices `rotation @ x + translation`.

@@ -12,10 +12,11 @@ from limitblocks.arrays import Array
 from limitblocks.errors import GeometryError, ModelError
 from limitblocks.geometry import Block
 from limitblocks.geometry.accuracy import Accuracy, block_length, millimetres
+from limitblocks.geometry.block import WORDS
 from limitblocks.geometry.mend import TwistedFaces, mended
 from limitblocks.geometry.twisted import Twisted, rounding
 from limitblocks.io.colours import known
-from limitblocks.io.solid import WORDS, Solid
+from limitblocks.io.solid import Solid
 from limitblocks.shown import many
 
 #: Distance of a corner from its plane over the accuracy that faces which touch show: as for healing.

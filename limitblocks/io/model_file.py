@@ -14,12 +14,12 @@ import numpy as np
 from limitblocks.arrays import read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Contacts, Interface, Tolerances, find_contacts
+from limitblocks.geometry.block import WORDS
 from limitblocks.geometry.given_interfaces import interface_faults
 from limitblocks.io import faults, strict_json
 from limitblocks.io.materials import joint_of, materials_of, refuse_jointless
 from limitblocks.io.open_joints import joined
 from limitblocks.io.registry import TERMS
-from limitblocks.io.solid import WORDS
 from limitblocks.io.units import in_si
 from limitblocks.joints import Joint, Materials
 from limitblocks.mechanics import Load

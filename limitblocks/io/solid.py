@@ -9,8 +9,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 
-#: What a solid and a block say of themselves beside their shape.
-WORDS = ("layer", "material", "groups", "colour")
+Polygons = tuple[Array, Sequence[Sequence[int]]]  # vertices (n, 3), and those of each face
 
 
 class Solid(NamedTuple):

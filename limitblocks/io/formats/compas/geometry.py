@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import reprlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -11,9 +11,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.io.solid import placed
-
-Polygons = tuple[Array, Sequence[Sequence[int]]]
+from limitblocks.io.solid import Polygons, placed
 
 
 def polygons(data: Mapping[str, Any]) -> Polygons | None:

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from typing import Any
 
-from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.io.formats.dxf.part import Part
 from limitblocks.io.shells import solids, soup
-from limitblocks.io.solid import Solid
-
-Polygons = tuple[Array, Sequence[Sequence[int]]]
+from limitblocks.io.solid import Polygons, Solid
 
 #: MESHSMOOTH smooths what it makes, unless told otherwise.
 _TO_MESH = "convert it to a mesh (MESHSMOOTH, then smoothness none (0), or EXPLODE a copy to faces)"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from types import ModuleType
 from typing import Any
 
@@ -13,8 +12,7 @@ from limitblocks.errors import ModelError
 from limitblocks.geometry.coplanar import axes_along
 from limitblocks.io.imported import refuse_many
 from limitblocks.io.shells import soup
-
-Polygons = tuple[Array, Sequence[Sequence[int]]]
+from limitblocks.io.solid import Polygons
 
 #: Distance from a plane or a line, over the size of the solid, that still counts as straight.
 _STRAIGHT = 1e-6
