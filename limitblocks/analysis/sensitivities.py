@@ -213,9 +213,7 @@ def _by_weights(model: Model, si: State) -> Array:
     ]
     change = _loads_power(replace(model, blocks=heavier), si) - _loads_power(model, si)
     ordered = np.zeros(len(model.blocks))
-    ordered[[k for k, block in enumerate(model.blocks) if block.name not in set(model.supports)]] = (
-        -change / step
-    )
+    ordered[model.free] = -change / step
     return read_only(ordered)
 
 
