@@ -11,12 +11,17 @@ SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
 OWN = WEIGHT * T * H
 
 
-def facade(joint=None):
-    """One metre of a facade with a floor at its top, `ARM` from its outer edge; pushed outwards along X."""
-    stones = [
+def wall_stones():
+    """One metre of a wall, a single block, and the ground that it stands on."""
+    return [
         lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
         lb.Block.box("wall", (T, 1, H), (0, 0, H / 2), WEIGHT),
     ]
+
+
+def facade(joint=None):
+    """One metre of a facade with a floor at its top, `ARM` from its outer edge; pushed outwards along X."""
+    stones = wall_stones()
     floor = added_mass("wall", (T / 2 - ARM, 0, H), weight=FLOOR)
     found = lb.find_interfaces(stones, joint or lb.PointContact(0.6))
     push = lb.mass_proportional((1, 0, 0), [floor])

@@ -1,7 +1,8 @@
-"""Where a tracked path starts, and several of them in turn."""
+"""Where a tracked path starts, several of them in turn, and a way to leave one."""
 
 from limitblocks.analysis.nonassociated.least_norm import least_state
 from limitblocks.analysis.nonassociated.means import MEANS
+from limitblocks.analysis.nonassociated.path_equations import Point
 from limitblocks.analysis.nonassociated.tracking import track
 from limitblocks.problem import Flow
 
@@ -21,3 +22,9 @@ def follow(flow, x0, weights, *, means=MEANS, **options):
             break
     state, _ = min(tried, key=lambda outcome: (not outcome[1].closed, outcome[1].residual))
     return state, tuple(info for _, info in tried)
+
+
+def direction(random, z, size):
+    """A move of a point of a path, at random but for the load factor."""
+    x, u, s, y = (size * random.normal(size=v.shape) for v in (z.x, z.u, z.s, z.y))
+    return Point(x, u, size, s, y, 0.0)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from paths import start
+from paths import direction, start
 
 import limitblocks as lb
 from limitblocks import structures
@@ -119,11 +119,6 @@ def test_the_products_of_moved_points_are_those_of_their_theta():
         products = path.cones.product(point.s, point.y)
         np.testing.assert_allclose(products, path.target(point.theta), rtol=1e-9, atol=1e-12)
     assert ahead.theta == pytest.approx(1.1)
-
-
-def direction(random, z, size):
-    parts = [size * random.normal(size=v.shape) for v in (z.x, z.u, z.s, z.y)]
-    return Point(parts[0], parts[1], size, parts[2], parts[3], 0.0)
 
 
 def test_the_stresses_move_on_without_a_jump_of_the_path():

@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from facades import OWN, H, T, wall_stones
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks import structures
@@ -28,13 +30,8 @@ def differences(build, value, step):
 
 def test_shape_moves_ties_with_their_anchors_and_keeps_their_sections():
     """Facade b x h of weight W, held at z: a = (W b / 2 + F z cos) / (W h / 2), about the toe."""
-    b, h, z, W, F, away = 0.5, 5.0, 4.5, 45e3, 8e3, 5.75
-    stones = [
-        lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
-        lb.Block.box("wall", (b, 1, h), (0, 0, h / 2), W / (b * h)),
-    ]
-    found = lb.find_interfaces(stones, lb.PointContact(0.6))
-    wall = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    b, h, z, W, F, away = T, H, 4.5, OWN, 8e3, 5.75
+    wall = model_of(wall_stones(), ["ground"], lb.PointContact(0.6))
     rod = tie("wall", (-b / 2, 0, z), "ground", (-b / 2 - away, 0, z), area=1e-4, strength=1e9, pull_out=F)
     tied = reinforced(wall, rod)
     bounds = lb.bounds(tied)
@@ -47,27 +44,22 @@ def test_shape_moves_ties_with_their_anchors_and_keeps_their_sections():
     # the far anchor rises by t: the rod, away long, pulls up by t / away of its force, b before the toe
     anchor = shape_sensitivity(tied, bounds, lambda r: (r[:, :1] < -3) * np.array([0, 0, 1.0]))
     assert anchor == pytest.approx(-F * b / away / (W * h / 2), rel=1e-6)
-    bonded = reinforced(wall, strip(found[0], (-b / 2, 0, 0), width=0.1, capacity=F))
+    bonded = reinforced(wall, strip(wall.interfaces[0], (-b / 2, 0, 0), width=0.1, capacity=F))
     deeper = shape_sensitivity(bonded, lb.bounds(bonded), lambda r: r * [0, 1, 0])
     assert deeper == pytest.approx(-F * b / (W * h / 2), rel=1e-6)
 
 
 def test_shape_of_ties_that_were_alike_and_are_no_more():
     """Two rods, one anchor rises: one grows longer than the other, and joints come in another order."""
-    b, h, W, F, away = 0.5, 5.0, 45e3, 4e3, 5.75
-    stones = [
-        lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
-        lb.Block.box("wall", (b, 1, h), (0, 0, h / 2), W / (b * h)),
-    ]
-    found = lb.find_interfaces(stones, lb.PointContact(0.6))
-    wall = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    b, h, W, F, away = T, H, OWN, 4e3, 5.75
+    wall = model_of(wall_stones(), ["ground"], lb.PointContact(0.6))
     rods = [
         tie("wall", (-b / 2, y, 4.5), "ground", (-b / 2 - away, y, 4.5), area=1e-4, strength=1e9, pull_out=F)
         for y in (-0.3, 0.3)
     ]
     tied = reinforced(wall, *rods)
-    one, other = (k for k in tied.interfaces if k not in found)
-    between = replace(tied, interfaces=[one, *found, other])
+    one, other = (k for k in tied.interfaces if k not in wall.interfaces)
+    between = replace(tied, interfaces=[one, *wall.interfaces, other])
     anchor = shape_sensitivity(
         between, lb.bounds(between), lambda r: ((r[:, :1] < -3) & (r[:, 1:2] > 0)) * np.array([0, 0, 1.0])
     )

@@ -15,11 +15,7 @@ from limitblocks.analysis.nonassociated import path as walking
 from limitblocks.analysis.nonassociated.increment import NO_BARRIER, faded, increment
 from limitblocks.analysis.nonassociated.means import MEANS, Means
 from limitblocks.analysis.nonassociated.path import Walk
-from limitblocks.analysis.nonassociated.path_equations import (
-    Barrier,
-    Point,
-    inner,
-)
+from limitblocks.analysis.nonassociated.path_equations import Barrier, inner
 from limitblocks.analysis.nonassociated.path_record import Progress, winds
 from limitblocks.analysis.nonassociated.path_start import path_from
 from limitblocks.analysis.nonassociated.start import load_scale
@@ -293,11 +289,6 @@ def test_an_answer_is_kept_that_is_interrupted_while_its_evidence_is_gathered(mo
     assert np.isfinite(found.backward_error.value) == known
     assert found.fixed_point_change is None
     assert any(remark.startswith("this state solves the equations") for remark in found.remarks)
-
-
-def direction(random, z, size):
-    parts = [size * random.normal(size=v.shape) for v in (z.x, z.u, z.s, z.y)]
-    return Point(parts[0], parts[1], size, parts[2], parts[3], 0.0)
 
 
 def test_a_path_out_of_budget_says_so_and_leaves_its_best_state():

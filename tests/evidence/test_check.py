@@ -35,8 +35,7 @@ def claim(model):
     sign = -1.0  # C = T (u_j - u_i), F = C^T Q: the loads on j equal Q on j in the axes of the interface
     Q = np.concatenate([interface.axes @ (sign * force), interface.axes @ (sign * -np.cross(at, force))])
     rates = np.zeros((2, 6))
-    moving = [k for k, b in enumerate(model.blocks) if b.name not in model.supports]
-    rates[moving, 0] = 1.0 / WEIGHT
+    rates[model.free, 0] = 1.0 / WEIGHT
     return Claim(MU, Q[None], displacement_rates=rates, digest=model.digest)
 
 

@@ -25,8 +25,7 @@ def pair(model):
 
 
 def state_of(model, pair):
-    free = [k for k, block in enumerate(model.blocks) if block.name not in model.supports]
-    rates = pair.displacement_rates[free].ravel()
+    rates = pair.displacement_rates[model.free].ravel()
     return State(pair.lower, pair.generalised_stresses, rates, pair.flow_multipliers)
 
 

@@ -26,7 +26,7 @@ def judged(joint, *, base=SLIDING, rates=(1.0, 0.0, 0.0), rows=None, dead=RESTIN
     y, u = np.zeros(len(p.g)), np.zeros((2, 6))
     for (mode, of_mode), value in (rows or {}).items():
         y[np.flatnonzero([one == mode for one in p.row_mode])[of_mode]] = value / W
-    u[[block.name not in model.supports for block in model.blocks], :3] = np.divide(rates, W)
+    u[model.free, :3] = np.divide(rates, W)
     dead = p.resultants.T @ (np.array(dead) * W) / (4 if points is not None else 1)
     x = None if points is None else W * np.ravel(points)
     claim = Claim(MU, W * np.array([base]), u, y, generalised_stresses=x, dead_load_stresses=dead, **given)

@@ -34,8 +34,7 @@ def claimed(model, state, **others):
 
 def state_of(model, claim):
     """The dimensionless state of a claim that has everything."""
-    rates = dict(zip((b.name for b in model.blocks), claim.displacement_rates, strict=True))
-    u = np.concatenate([rates[name] for name in model.problem.blocks])
+    u = claim.displacement_rates[model.free].ravel()
     si = State(claim.load_factor, claim.generalised_stresses, u, claim.flow_multipliers)
     return model.problem.dimensionless(si)
 

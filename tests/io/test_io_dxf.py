@@ -13,10 +13,11 @@ from reading import fault, outcome
 import limitblocks as lb
 
 
+@pytest.mark.parametrize("suffix", [".3dm", ".dxf", ".json"])
 @pytest.mark.parametrize("name", STRUCTURES)
-def test_names_supports_and_layers_survive(tmp_path, name):
+def test_names_supports_and_layers_survive(tmp_path, name, suffix):
     model = STRUCTURES[name]
-    imported = lb.files.read_blocks(lb.files.write_blocks(model, tmp_path / "a.dxf"))
+    imported = lb.files.read_blocks(lb.files.write_blocks(model, tmp_path / f"a{suffix}"))
     assert [block.name for block in imported.blocks] == [block.name for block in model.blocks]
     assert imported.supports == model.supports
     assert not imported.notes

@@ -3,6 +3,7 @@ import sys
 
 import numpy as np
 import pytest
+from dxf_files import STRUCTURES
 from reading import fault, outcome
 
 import limitblocks as lb
@@ -10,12 +11,6 @@ from limitblocks.io.formats.rhino import chunks
 
 rhino3dm = pytest.importorskip("rhino3dm")
 
-JOINT = lb.OrdunaLourenco(0.6)
-STRUCTURES = {
-    "arch": lb.structures.arch(JOINT, radius=2.0, thickness=0.3, voussoirs=9, depth=0.5),
-    "wall": lb.structures.wall(JOINT, length=1.6, courses=3, thickness=0.2),
-    "vault": lb.structures.barrel_vault(JOINT, radius=2.0, thickness=0.3, length=1.5, courses=7, stones=2),
-}
 L_SHAPE = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
 
 
@@ -64,16 +59,6 @@ def extrusion(outline, height):
     for x, y in [*outline, outline[0]]:
         line.Add(x, y, 0)
     return rhino3dm.Extrusion.Create(line.ToPolylineCurve(), height, True)
-
-
-@pytest.mark.parametrize("name", STRUCTURES)
-def test_names_supports_and_layers_survive(tmp_path, name):
-    model = STRUCTURES[name]
-    imported = lb.files.read_blocks(lb.files.write_blocks(model, tmp_path / "a.3dm"))
-    assert [block.name for block in imported.blocks] == [block.name for block in model.blocks]
-    assert imported.supports == model.supports
-    assert not imported.notes
-    assert set(imported.layers.values()) == {"support", "block"}
 
 
 def test_every_digit_survives_far_from_the_origin(tmp_path):

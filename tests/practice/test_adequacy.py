@@ -3,6 +3,7 @@
 import json
 from dataclasses import dataclass, replace
 
+import facades
 import numpy as np
 import pytest
 from stones import model_of
@@ -135,11 +136,7 @@ def test_cohesion_is_divided():
 
 
 def wall(prestress=0.0):
-    stones = [
-        lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
-        lb.Block.box("wall", (0.5, 1, 5), (0, 0, 2.5), 18e3),
-    ]
-    model = model_of(stones, ["ground"], lb.PointContact(0.8))
+    model = model_of(facades.wall_stones(), ["ground"], lb.PointContact(0.8))
     rod = tie("wall", (-0.25, 0, 4.5), "ground", (-6, 0, 4.5), area=1e-4, strength=8e7, prestress=prestress)
     return reinforced(model, rod)
 

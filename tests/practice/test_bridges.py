@@ -267,7 +267,7 @@ def test_the_power_of_a_vehicle_is_that_of_its_load(spread, y):
     model, vehicle = bridge(spans=2, pier_width=0.5), Vehicle((60e3, 100e3), (0.0, 1.7))
     deck, rng = Deck(3.4, spread, y).on(model), np.random.default_rng(1)
     places, rates = np.linspace(-1.8, 3.6, 23), rng.normal(size=(len(model.blocks), 6))
-    moving = rates[[block.name not in model.supports for block in model.blocks]]
+    moving = rates[model.free]
     loads = [vehicle_load(model, vehicle, deck, x).on(model.free_blocks) for x in places.tolist()]
     line = line_of(model, vehicle, deck)
     wanted = [float(np.sum(load * moving)) for load in loads]

@@ -211,11 +211,7 @@ def test_verify_files_a_report(block, tmp_path):
 @pytest.fixture
 def tied(tmp_path):
     """A wall and a tie, as the text of a model file."""
-    stones = [
-        lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
-        lb.Block.box("wall", (0.5, 1, 5), (0, 0, 2.5), 18e3),
-    ]
-    wall = model_of(stones, ["ground"], lb.PointContact(0.6))
+    wall = model_of(facades.wall_stones(), ["ground"], lb.PointContact(0.6))
     rod = tie("wall", (-0.25, 0, 4.5), "ground", (-6, 0, 4.5), area=1e-4, strength=2e8)
     return reinforced(wall, rod).save(tmp_path / "tied.json").read_text()
 

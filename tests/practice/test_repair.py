@@ -31,11 +31,7 @@ JOINT = lb.PointContact(0.7)
 
 
 def wall():
-    stones = [
-        lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
-        lb.Block.box("wall", (T, 1, H), (0, 0, H / 2), WEIGHT),
-    ]
-    return model_of(stones, ["ground"], JOINT)
+    return model_of(facades.wall_stones(), ["ground"], JOINT)
 
 
 def rod(height, capacity=1e5):
