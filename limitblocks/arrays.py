@@ -39,6 +39,14 @@ def reals(values: Any) -> Array:
     return array.astype(np.float64)
 
 
+def reals_if_any(values: Any) -> Array:
+    """Return numbers as floats, shape (0,) where one is none."""
+    try:
+        return reals(values)
+    except (TypeError, ValueError):
+        return np.zeros(0)
+
+
 def real(value: Any) -> float:
     """Return a number as a float, NaN for what is none, such as text, True, or an integer without bounds."""
     try:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from limitblocks.arrays import Array, read_only, reals
+from limitblocks.arrays import Array, read_only, reals_if_any
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import centroids
@@ -30,10 +30,7 @@ def _shifted(points: Array, field: Field, t: float) -> Array:
             f"field is {field!r}, expected a function of points (k, 3) that gives their displacements"
         )
     given = field(points)
-    try:
-        shift = reals(given)
-    except (TypeError, ValueError):
-        shift = np.zeros(0)
+    shift = reals_if_any(given)
     if shift.shape != points.shape or not np.isfinite(shift).all():
         was = f"shape {shift.shape}" if shift.size else repr(given)
         raise ModelError(

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from limitblocks.arrays import Array, read_only, reals
+from limitblocks.arrays import Array, read_only, reals_if_any
 from limitblocks.errors import GeometryError, ModelError, refuse_kind
 from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import areas
@@ -210,10 +210,7 @@ def normal_share(joint: object, interface: Interface, N: float) -> float:
 
 
 def _six(values: Any, word: str) -> Array:
-    try:
-        array = reals(values)
-    except (TypeError, ValueError):
-        array = np.zeros(0)
+    array = reals_if_any(values)
     if array.shape != (6,) or not np.isfinite(array).all():
         raise ModelError(f"{word} is {values!r}, expected six finite numbers (V1, V2, N, M1, M2, T)")
     return array

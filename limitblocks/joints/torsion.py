@@ -20,7 +20,7 @@ import shapely
 from shapely import MultiPolygon, Polygon
 from shapely.geometry.polygon import orient
 
-from limitblocks.arrays import Array, reals
+from limitblocks.arrays import Array, reals_if_any
 from limitblocks.errors import GeometryError
 from limitblocks.geometry.polygon import areas, centroids, cross, stacked
 
@@ -60,10 +60,7 @@ def as_region(region: Region) -> Any:
 
 
 def _ring(given: Any) -> Any:
-    try:
-        vertices = reals(given)
-    except (TypeError, ValueError):
-        vertices = np.zeros(0)
+    vertices = reals_if_any(given)
     if vertices.ndim != 2 or len(vertices) < 3 or vertices.shape[1] != 2 or not np.isfinite(vertices).all():
         raise GeometryError(f"a polygon is a finite array of shape (n >= 3, 2); got {given!r}")
     return _checked(Polygon(vertices))

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, read_only, reals
+from limitblocks.arrays import Array, read_only, reals_if_any
 from limitblocks.errors import ModelError, refuse_no_function
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import compass, top_force, turned, unit_vector
@@ -183,10 +183,7 @@ def _columns(analysis: str, outcomes: list[Outcome]) -> tuple[str, Array, tuple[
 
 
 def _table(values: npt.ArrayLike, columns: int, word: str) -> Array:
-    try:
-        array = reals(values)
-    except (TypeError, ValueError):
-        array = np.zeros(0)
+    array = reals_if_any(values)
     if array.ndim != 2 or array.shape[1] != columns or not len(array) or not np.isfinite(array).all():
         raise ModelError(f"{word}: finite numbers of shape (n, {columns}) are needed, n at least 1")
     return array

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
-from limitblocks.arrays import Array, real, reals
+from limitblocks.arrays import Array, real, reals_if_any
 from limitblocks.errors import ModelError, few, near, sequence_of
 from limitblocks.geometry import Block
 
@@ -173,10 +173,7 @@ def position(name: str, blocks: Sequence[Block]) -> int:
 
 
 def _numbers(values: Sequence[float], word: str, count: int, said: str) -> list[float]:
-    try:
-        array = reals(values)
-    except (TypeError, ValueError):
-        array = np.full(0, np.nan)
+    array = reals_if_any(values)
     if array.shape != (count,) or not (np.abs(array) < _LARGEST).all():
         raise ModelError(f"{word} is {values!r}, expected {said} finite numbers < {_LARGEST:g} in size")
     numbers: list[float] = array.tolist()
