@@ -115,7 +115,7 @@ def _searched(flow: Flow, state: State, most: float, above: float = 0.0) -> Back
             return unknown()
         held = least(given, most, held=True) if moved_by(given, free).value > free.change else None
         both = [one for one in (free, held) if one]
-        near = min(both, key=lambda one: _total(given, one))
+        near = min(both, key=lambda one: max(one.change, moved_by(given, one).value))
         return _error(given, near, min(both, key=lambda one: one.change))
 
 
@@ -217,11 +217,6 @@ def _error(given: Given, near: Nearby, free: Nearby) -> BackwardError:
         free.change,
         free.mechanism,
     )
-
-
-def _total(given: Given, near: Nearby) -> float:
-    """The largest change, of the mechanism too."""
-    return max(near.change, moved_by(given, near).value)
 
 
 def moved_by(given: Given, near: Nearby) -> Residual:

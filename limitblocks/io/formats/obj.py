@@ -130,17 +130,14 @@ def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
     if text.count("\n") > _MOST_LINES:
         raise ModelError(f"has {text.count(chr(10))} lines; at most {_MOST_LINES} are read, split the file")
     # a line goes on after a backslash, but in a name it is a letter
-    whole = re.sub(r"(?m)^[ \t]*[vf][^\n]*\\\r?\n(?:[^\n]*\\\r?\n)*", lambda m: _joined(m.group()), text)
+    lines = r"(?m)^[ \t]*[vf][^\n]*\\\r?\n(?:[^\n]*\\\r?\n)*"
+    whole = re.sub(lines, lambda found: re.sub(r"\\\r?\n", " ", found.group()), text)
     for number, line in enumerate(whole.splitlines(), 1):
         if len(line) > _LONGEST_LINE:
             raise ModelError(f"line {number} has {len(line)} letters; at most {_LONGEST_LINE} are read")
         words = line.split(None if _BLANK not in line else " ")
         if words and not words[0].startswith("#"):
             yield number, words
-
-
-def _joined(lines: str) -> str:
-    return re.sub(r"\\\r?\n", " ", lines)
 
 
 def _section(state: dict[str, str], path: Path, own: bool) -> _Section:
