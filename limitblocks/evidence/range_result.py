@@ -192,4 +192,4 @@ class LoadFactorRange(Result):
 
 def _span(pair: tuple[float, float]) -> str:
     low, high = pair
-    return f"{low:.6g} to {high:.6g}"
+    return f"{low:.6g} to {high:.6g}" if low <= high else "nothing"

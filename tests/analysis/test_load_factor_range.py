@@ -255,6 +255,7 @@ def test_the_time_limit_leaves_what_there_is():
     assert not found.complete
     assert found.load_path is None
     assert np.isnan(found.reached).all()
+    assert "nothing reached from permanent-load states; nothing certified" in str(found)
     assert "stopped early, by the time limit or by hand" in str(found)
 
 
