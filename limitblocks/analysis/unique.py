@@ -8,17 +8,20 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.optimize import linprog
 from scipy.sparse import linalg
 
+from limitblocks.analysis.conic import Conic
+from limitblocks.analysis.direct import FIXED, solution
+from limitblocks.analysis.programs import DIRECT
 from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.mechanism import sparse_columns
-from limitblocks.problem import LimitProblem, State
+from limitblocks.problem import Cones, LimitProblem, State
 from limitblocks.problem.cones import rays
 
 YIELDING = 1e-6  # of the largest strain rate: less is no flow
 READY = 1e-5  # of the terms of the rows of an interface: one with less to spare yields, and may flow
 MOVES = 1e-4  # of the rows that begin to flow by 1 at most: less is no motion of the blocks
+FAR = 1e3  # of the rows that begin to flow by 1 at most: farther rates are rounding
 RAYS = 8  # in each plane, of the cones at whose apex the stresses are
 SINGULAR = 1e-8  # least eigenvalue over the diagonal, below which another mechanism exists
 ROUNDS = 8  # of the inverse power method
@@ -127,14 +130,16 @@ class Yielding:
         """
         p, D, N = self.problem, self.flows, self.ready
         live = sparse.csr_array(p.live[None])
-        A = sparse.block_array([[p.C, D.T, N.T], [live, None, None]], format="csr")
-        n, k = p.C.shape[1], D.shape[0]
-        program: dict[str, Any] = {"A_eq": A, "b_eq": np.zeros(A.shape[0]), "method": "highs"}
-        program["bounds"] = [(None, None)] * (n + k) + [(0.0, 1.0)] * N.shape[0]
-        along = np.random.default_rng(0).standard_normal(n)
-        for sense in (1.0, -1.0):
-            found = linprog(np.pad(sense * along, (0, A.shape[1] - n)), **program)
-            if found.status or abs(found.fun) > MOVES:
+        blocks: list[list[Any]] = [[p.C, D.T, N.T], [live, None, None]]
+        A: sparse.coo_array = sparse.block_array(blocks)
+        n, size = p.C.shape[1], A.shape[1]
+        least, every = np.where(np.arange(size) < size - N.shape[0], -FAR, 0.0), sparse.eye_array(size)
+        rows = sparse.csc_array(sparse.vstack([A, every, -every]))
+        ends = np.concatenate([np.zeros(A.shape[0]), np.where(least < 0.0, FAR, 1.0), -least])
+        along = np.pad(np.random.default_rng(0).standard_normal(n), (0, size - n))
+        for cost in (along, -along):
+            found = np.array(solution(Conic(cost, rows, ends, Cones(2 * size)), DIRECT.settings | FIXED).x)
+            if not cost @ found >= -MOVES:  # or not a number
                 return True
         return False
 

@@ -247,6 +247,20 @@ def test_a_kink_within_the_digits_of_a_drawing_is_one(joint, off):
     assert not found.unique
 
 
+def test_the_one_mechanism_of_a_large_facade_is_told_as_the_only_one():
+    """Where forward and backward differences of the unit weights agree, to the second order of the step."""
+    model = structures.facade(lb.PointContact(0.6))
+    found, shares, step = of(model), np.random.default_rng(0).standard_normal(len(model.blocks)), 1e-3
+
+    def changed(by):
+        blocks = zip(model.blocks, shares.tolist(), strict=True)
+        return [replace(one, unit_weight=(one.unit_weight or 0.0) * (1.0 + by * s)) for one, s in blocks]
+
+    now, ahead, back = (lb.bounds(replace(model, blocks=changed(by))).lower for by in (0.0, step, -step))
+    assert ahead - now == pytest.approx(now - back, rel=0.02)
+    assert found.unique
+
+
 def test_governing_joints_and_stones_come_first():
     found = of(structures.ferris_tin_loi_wall(1, lb.OrdunaLourenco(0.65)))
     first = found.governing(5)
