@@ -184,3 +184,5 @@ class ModelDocument(Document):
     """Terms of the constant loads; self weight if left out."""
     live: Many[TermDocument]
     """Terms of the loads that the load factor multiplies."""
+    gamma_Q: Number | None = None
+    """What the loads of `live` were multiplied by where loads and strengths have their design values."""

@@ -111,7 +111,11 @@ def _model(document: ModelDocument) -> Model:
         for line in contacts.warnings:
             _log.warning("%s", line)
     refuse_jointless(model)
-    return model
+    if document.gamma_Q is None:
+        return model
+    from limitblocks.practice.partial_factors import with_design_values  # here, as practice takes its time
+
+    return with_design_values(model, document.gamma_Q)
 
 
 def _assigned(table: Materials, blocks: Sequence[Block]) -> tuple[Block, ...]:

@@ -56,7 +56,18 @@ DIMENSIONS: dict[str, tuple[int, int]] = {
     "unit_weight": (1, -3),
     **dict.fromkeys(("axes", "faces", "direction", "facing", "towards", "factor", "coefficient"), (0, 0)),
     **dict.fromkeys(
-        ("friction", "sides", "fineness", "points", "gap", "angle", "width", "accuracy", "schema_version"),
+        (
+            "friction",
+            "sides",
+            "fineness",
+            "points",
+            "gap",
+            "angle",
+            "width",
+            "accuracy",
+            "schema_version",
+            "gamma_Q",
+        ),
         (0, 0),
     ),
 }

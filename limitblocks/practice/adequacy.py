@@ -7,7 +7,7 @@ EN 1996-1-1:2005, Section 2.4.3 (gamma_M of masonry); EN 1997-1:2004, Table A.4 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import fields, replace
+from dataclasses import replace
 
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
@@ -18,7 +18,7 @@ from limitblocks.joints import Dowel, Guide, Joint, Tie
 from limitblocks.joints.base import STRENGTHS, joint_of, refuse_nameless_strength, stress_words
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.adequacy_result import Adequacy, DesignValue
-from limitblocks.practice.partial_factors import DesignModel, PartialFactors
+from limitblocks.practice.partial_factors import DesignModel, PartialFactors, with_design_values
 from limitblocks.shown import many
 
 FRICTION = "friction"
@@ -77,7 +77,7 @@ def design_model(model: Model, factors: PartialFactors) -> Model:
     """Return the model with design loads and design strengths; see :func:`adequacy`.
 
     What puts another live load in the place of its own, as :func:`~limitblocks.practice.worst_position`,
-    multiplies that by gamma_Q. A model file does not keep this.
+    multiplies that by gamma_Q. Model and result files keep this.
 
     Raises
     ------
@@ -93,9 +93,8 @@ def design_model(model: Model, factors: PartialFactors) -> Model:
     made = {joint: _design(joint, factors) for joint in _joints(model)}
     interfaces = [replace(one, joint=made[one.joint]) for one in model.interfaces]  # type: ignore[index]
     dead, live = factors.gamma_G * model.dead, factors.gamma_Q * model.live
-    given = {one.name: getattr(model, one.name) for one in fields(model)}
-    design = given | {"interfaces": interfaces, "dead": dead, "live": live}
-    return DesignModel(**design, gamma_Q=factors.gamma_Q)
+    design = replace(model, interfaces=interfaces, dead=dead, live=live)
+    return with_design_values(design, factors.gamma_Q)
 
 
 def _design(joint: Joint, factors: PartialFactors) -> Joint:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 from limitblocks.errors import ModelError
 from limitblocks.joints import Dowel, Joint, Tie
@@ -87,6 +88,22 @@ class DesignModel(Model):
     """
 
     gamma_Q: float = 1.0
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the document of a model, which says what its live load was multiplied by."""
+        return super().to_dict() | {"gamma_Q": self.gamma_Q}
+
+
+def with_design_values(model: Model, gamma_Q: float) -> DesignModel:
+    """Return a model, whose loads and strengths have their design values, as one that says so.
+
+    Raises
+    ------
+    ModelError
+        If gamma_Q is not a number > 0 and <= 10.
+    """
+    gamma_Q = number(gamma_Q, "gamma_Q", "", above=0.0, most=MOST)
+    return DesignModel(**{one.name: getattr(model, one.name) for one in fields(Model)}, gamma_Q=gamma_Q)
 
 
 def live_factor(model: Model) -> float:

@@ -1,5 +1,6 @@
 """Vehicles on a deck: axles, dispersion, and where they are worst."""
 
+import json
 from dataclasses import replace
 
 import facades
@@ -156,3 +157,25 @@ def test_no_place_beside_the_worst_position_carries_less():
     for x in found.position + np.array([-0.04, -0.02, 0.02, 0.04]):
         there = replace(arch, live=vehicle_load(arch, vehicle, found.deck, float(x)))
         assert lb.bounds(there).lower >= found.bounds.lower * (1.0 - 2e-5)
+
+
+def test_a_file_keeps_gamma_q(tmp_path):
+    """The overhang tips about x = 3: gamma_Q P (x - 3) = gamma_G W (3 - 2), of the model read back, too."""
+    factors, model = PartialFactors(gamma_G=0.9, gamma_Q=1.5, gamma_M=1.0), beam()
+    file, moved = tmp_path / "result.json", replace(model, live=force((0, 0, -1), 3.95))
+    adequacy(moved, factors, without_dilatancy=False).save(file)
+    again = [lb.read(design_model(model, factors).save(tmp_path / "model.json"))]
+    again.append(lb.read_result(file, moved).model)
+    for design in again:
+        found = lb.studies.moving_load(design, (0, 0, -10e3), [(3.95, 0.0)])
+        assert found.load_factors == pytest.approx(0.9 * 40e3 / (1.5 * 10e3 * 0.95), rel=1e-6)
+        with pytest.raises(lb.ModelError, match="design values already"):
+            adequacy(design, factors)
+    assert again[0].digest == design_model(model, factors).digest
+    assert "gamma_Q" not in model.to_dict()
+    document = design_model(model, factors).to_dict()
+    (tmp_path / "units.json").write_text(json.dumps(document | {"units": {"length": "ft", "force": "kip"}}))
+    assert lb.read(tmp_path / "units.json").gamma_Q == 1.5
+    (tmp_path / "wrong.json").write_text(json.dumps(document | {"gamma_Q": 150.0}))
+    with pytest.raises(lb.ModelError, match=r"gamma_Q is 150.0, expected a finite number > 0"):
+        lb.read(tmp_path / "wrong.json")
