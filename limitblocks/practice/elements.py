@@ -18,6 +18,7 @@ from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import force
 from limitblocks.mechanics.loads.load import number, vector
 from limitblocks.model import Model, checked_model
+from limitblocks.practice.partial_factors import DesignModel
 from limitblocks.practice.places import off_joint
 
 ROUNDED = 1e-9  # of the coordinates of its anchors: the direction of a shorter tie is rounding
@@ -197,8 +198,19 @@ def reinforced(model: Model, *elements: Element) -> Model:
     ------
     ModelError
         If an element names a block that the model does not have, or joins two supports, or an anchor of a
-        tie, or a strip or dowel, is off a block that can move.
+        tie, or a strip or dowel, is off a block that can move; if the model has design values, which the
+        elements would not have.
     """
+    if isinstance(model, DesignModel):
+        raise ModelError(
+            "the model has design values, which an element would not have: reinforce the model with "
+            "characteristic values, then design_model"
+        )
+    return with_elements(model, *elements)
+
+
+def with_elements(model: Model, *elements: Element) -> Model:
+    """Return the model with elements as they are: of a design model they have design values already."""
     checked_model(model)
     for element in elements:
         _refuse_other(element)

@@ -22,7 +22,7 @@ from limitblocks.mechanics.loads import added_mass
 from limitblocks.mechanics.loads.forces import MassProportional
 from limitblocks.mechanics.loads.load import Vector, number, of, vector
 from limitblocks.model import Model, checked_model
-from limitblocks.practice.elements import Element, reinforced
+from limitblocks.practice.elements import Element, with_elements
 from limitblocks.problem import LimitProblem
 from limitblocks.shown import Result, coordinates, kept
 
@@ -93,7 +93,8 @@ def least_ties(model: Model, candidates: Sequence[Element], load_factor: float) 
     Parameters
     ----------
     model : Model
-        The structure without the ties.
+        The structure without the ties. Of a design model the forces are design values: a tie is made for
+        gamma_S times as much.
     candidates : sequence of Element
         Of :func:`~limitblocks.practice.tie`, without prestress; their strengths are the most each may get.
     load_factor : float
@@ -122,7 +123,7 @@ def least_ties(model: Model, candidates: Sequence[Element], load_factor: float) 
             raise ModelError(
                 f"candidate {one.interface.name} has a prestress of {one.prestress:.4g} N, expected none"
             )
-    tied = reinforced(model, *candidates)
+    tied = with_elements(model, *candidates)
     problem = tied.problem
     ties = problem.stress_interface >= len(model.interfaces)
     weights = np.where(ties, problem.stress_units, 0.0)
@@ -135,7 +136,7 @@ def least_ties(model: Model, candidates: Sequence[Element], load_factor: float) 
     kinds = tuple(
         f"{one.interface.name} at {coordinates(one.interface.centroid.tolist())} m" for one in candidates
     )
-    return _repair(amounts, reinforced(model, *kept), required, kinds, model.digest)
+    return _repair(amounts, with_elements(model, *kept), required, kinds, model.digest)
 
 
 def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], load_factor: float) -> Repair:

@@ -18,6 +18,7 @@ from limitblocks.practice import (
     capacity_curve,
     design_model,
     dowel,
+    least_ties,
     passive_fill,
     reinforced,
     tie,
@@ -175,6 +176,35 @@ def test_passive_fill_is_divided_as_a_tie():
     found = adequacy(held, PartialFactors(G, Q, M, PHI, S))
     weight, fill = model.free_blocks[0].weight, 3.0 * 18e3 / 2
     assert found.factor == pytest.approx((G * 0.4 * weight / PHI + fill / S) / (Q * weight), rel=1e-6)
+
+
+def test_what_reinforces_a_design_model_has_gamma_s(tmp_path):
+    """gamma_Q alpha W H / 2 = gamma_G W t / 2 + F z: the tie is made for gamma_S F, in the model as given."""
+    factors, required, weight = PartialFactors(0.9, Q, M, 1.0, S), 0.1, 45e3
+    rod = tie("wall", (-0.25, 0, 4.5), "ground", (-6, 0, 4.5), area=1e-3, strength=1e8)
+    bare = replace(wall(), interfaces=wall().interfaces[:1])
+    design = design_model(bare, factors)
+    force = (Q * required * weight * 2.5 - 0.9 * weight * 0.25) / 4.5
+    assert least_ties(design, [rod], required).total == pytest.approx(force, rel=1e-6)
+    made = tie("wall", (-0.25, 0, 4.5), "ground", (-6, 0, 4.5), area=1e-3, strength=S * force / 1e-3)
+    assert adequacy(reinforced(bare, made), factors).factor == pytest.approx(required, rel=1e-6)
+    with pytest.raises(lb.ModelError, match="reinforce the model with characteristic values, then"):
+        reinforced(design, rod)
+    point = [
+        "--point",
+        "0",
+        "0",
+        "0",
+        "--diameter",
+        "0.02",
+        "--capacity",
+        "8e3",
+        "-o",
+        str(tmp_path / "d.json"),
+    ]
+    done = CliRunner().invoke(app, ["dowel", str(design.save(tmp_path / "design.json")), *point])
+    assert done.exit_code == 2
+    assert "design values" in done.output
 
 
 def test_factors_of_one_change_nothing():
