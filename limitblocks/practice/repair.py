@@ -18,8 +18,9 @@ from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry.distance import distance
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Backfill, Tie
+from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import added_mass
-from limitblocks.mechanics.loads.forces import MassProportional
+from limitblocks.mechanics.loads.forces import AddedMass, MassProportional
 from limitblocks.mechanics.loads.load import Vector, number, of, vector
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.elements import Element, with_elements
@@ -145,7 +146,8 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
     Parameters
     ----------
     model : Model
-        Its live load is mass-proportional: what is added is pushed, too.
+        Its live load is mass-proportional: what is added is pushed, too. In the dead loads it counts as the
+        weights of the blocks do, such as .9 of it where they have .9 times those.
     places : sequence of (str, sequence of float)
         Block and point (m, global axes) of each mass that may be added.
     load_factor : float
@@ -170,7 +172,8 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
     problem, free = model.problem, model.free_blocks
     ones = [added_mass(block, at, weight=1.0) for block, at in known]
     columns = [
-        (one.on(free) + required * replace(one, direction=direction).on(free)).ravel() / problem.units.loads
+        (_weighing(model, one) + required * of(replace(one, direction=direction))).on(free).ravel()
+        / problem.units.loads
         for one in ones
     ]
     found = least_loads(problem, required * problem.units.live, np.stack(columns, axis=1))
@@ -179,11 +182,18 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
     heaps = [replace(one, weight=float(a)) for one, a in zip(ones, made, strict=True) if a > 0.0]
     added = replace(
         model,
-        dead=model.dead + of(*heaps),
+        dead=sum((_weighing(model, heap) for heap in heaps), model.dead),
         live=model.live + of(*(replace(heap, direction=direction) for heap in heaps)),
     )
     kinds = tuple(f"weight on {block} at {coordinates(at)} m" for block, at in known)
     return _repair(amounts, added, required, kinds, model.digest)
+
+
+def _weighing(model: Model, mass: AddedMass) -> Load:
+    """The dead load of a mass, as of the weights of the blocks; its weight where these are given by hand."""
+    weights = [(factor, term) for factor, term in model.dead.terms if isinstance(term, MassProportional)]
+    own = (factor * of(replace(mass, direction=term.direction)) for factor, term in weights)
+    return sum(own, Load()) if weights else of(mass)
 
 
 def _places(given: Any) -> list[tuple[str, Vector]]:

@@ -10,8 +10,10 @@ from stones import model_of
 import limitblocks as lb
 from limitblocks.practice import (
     Deck,
+    PartialFactors,
     Rocking,
     Vehicle,
+    design_model,
     dowel,
     element_acceleration,
     element_force,
@@ -54,6 +56,19 @@ def test_least_mass_goes_to_the_outermost_and_lowest_place():
     least = own * (required * H - T) / 2 / (T - required * 0.5)
     assert found.amounts == pytest.approx([0.0, least], rel=1e-6)
     assert found.bounds.lower >= required * (1 - 1e-5)
+
+
+@pytest.mark.parametrize("share", [0.9, 1.35])
+def test_an_added_mass_weighs_as_the_blocks_do(share):
+    """gamma_G (W t / 2 + P x) = alpha (W H / 2 + P z) about the toe."""
+    required, own = 0.14, WEIGHT * T * H
+    design = design_model(wall(), PartialFactors(gamma_G=share, gamma_Q=1.0, gamma_M=1.0))
+    by_hand = replace(wall(), dead=0.5 * share * lb.self_weight() + 0.5 * share * lb.self_weight())
+    for model in (design, by_hand):
+        found = least_masses(model, [("wall", (-T / 2, 0, 0.5))], required)
+        least = own * (required * H - share * T) / 2 / (share * T - required * 0.5)
+        assert found.total == pytest.approx(least, rel=1e-6)
+        assert found.bounds.lower >= required * (1 - 1e-5)
 
 
 def test_what_a_repair_brings_without_dilatancy():
