@@ -9,6 +9,7 @@ import numpy as np
 
 from limitblocks.analysis.anchors import anchors_off
 from limitblocks.arrays import Array
+from limitblocks.errors import few
 from limitblocks.geometry import Interface, Tolerances
 from limitblocks.geometry.accuracy import block_length, millimetres
 from limitblocks.geometry.polygon import areas
@@ -34,6 +35,7 @@ def of_ties(model: Model) -> Iterator[str]:
         yield from anchors_off(model, one)
     yield from _of_prestress(model)
     yield from _of_doubles(model)
+    yield from _of_fill_twice(model)
 
 
 def _of_sections(model: Model) -> Iterator[str]:
@@ -94,6 +96,26 @@ def _of_doubles(model: Model) -> Iterator[str]:
             same = f"as another between the same blocks, within {millimetres(gap)}"
             yield f"{one.name}: it is at {where} m, {same}: given twice? they add up"
         others.append(own)
+
+
+def _of_fill_twice(model: Model) -> Iterator[str]:
+    """What is asked about passive fill that holds a face of a block, towards one side, more than once."""
+    gap = (model.tolerances or Tolerances()).gap * block_length(model.blocks)
+    met: dict[str, list[Interface]] = {}
+    again = []
+    for one in model.interfaces:
+        if not isinstance(one.joint, Backfill):
+            continue
+        others = met.setdefault(one.block_i, [])
+        if any(
+            np.linalg.norm(one.centroid - other.centroid) <= gap and one.axes[2] @ other.axes[2] > 0.5
+            for other in others
+        ):
+            again.append(one.block_i)
+        others.append(one)
+    if again:
+        names = [*map(repr, dict.fromkeys(again))]
+        yield f"fill resists {few(names)} twice at one place: passive_fill (backfill) given twice? it adds up"
 
 
 def _anchors(one: Interface) -> Array:

@@ -109,6 +109,7 @@ def backfill(
         from limitblocks.analysis.magnitudes import of_fill
         from limitblocks.analysis.magnitudes_of_bridges import of_level, of_passive
         from limitblocks.io import read
+        from limitblocks.joints import Backfill
         from limitblocks.loads import fill
         from limitblocks.mechanics.loads.fills import Fill
         from limitblocks.practice import passive_fill, reinforced
@@ -117,6 +118,8 @@ def backfill(
         refuse_existing(output, force, model)
         structure = read(model)
         asked = *of_fill(unit_weight), *of_passive(passive), *of_level(structure, level, "fill that resists")
+        if any(isinstance(one.joint, Backfill) for one in structure.interfaces):
+            asked = *asked, "the model has fill that resists already; this adds to it"
         for question in asked:
             typer.echo(f"warning: {question}", err=True)
         held = passive_fill(

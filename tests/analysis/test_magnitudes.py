@@ -302,6 +302,8 @@ def test_fill_on_both_faces_of_a_roof_is_not_given_twice():
     fill = passive_fill(model, 2.0, unit_weight=18e3, coefficient=3.0)
     assert len(fill) == 2
     assert questions(reinforced(model, *fill)) == []
+    (said,) = questions(reinforced(model, *fill, *fill))
+    assert "fill resists 'block' twice at one place" in said
 
 
 @pytest.mark.parametrize(

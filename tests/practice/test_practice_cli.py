@@ -309,6 +309,12 @@ def test_a_bridge_from_the_shell(tmp_path):
         "backfill", bare, "--level", level, "--unit-weight", 20e3, "--passive", 0.3, "-o", tmp_path / "a.json"
     )
     assert "coefficient of passive pressure is 0.3, below 1: that of active pressure?" in active.stderr
+    assert "fill that resists already" not in active.stderr
+    again = run(
+        "backfill", held, "--level", level, "--unit-weight", 20e3, "--passive", 3, "-o", tmp_path / "b.json"
+    )
+    assert "the model has fill that resists already; this adds to it" in again.stderr
+    assert "fill resists 'span 1 voussoir 1'" in run("info", tmp_path / "b.json").output
     words = ("--axles", "50e3,50e3", "--distances", "0,1.2", "--level", level, "--count", 5)
     found = json.loads(run("vehicle", bare, *words, "--json").stdout)
     x = [block.vertices[:, 0] for block in model.free_blocks]
