@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,9 +13,12 @@ from limitblocks.evidence.check import check_mcp
 from limitblocks.evidence.claim import Claim
 from limitblocks.evidence.mechanisms import change_of_mechanism
 from limitblocks.joints import Tie
-from limitblocks.mechanics.loads import Fill
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import AddedMass, Fill, MassProportional
+from limitblocks.mechanics.loads.load import of
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import CapacityCurve
+from limitblocks.practice.carried_loads import prestress
 from limitblocks.practice.spectra import Place, Spectrum
 from limitblocks.practice.verification_result import Quantity
 from limitblocks.problem import Flow, State, turning_of
@@ -23,6 +27,8 @@ LC1 = 1.35  # confidence factor of the lowest level of knowledge, Table C8.5.IV
 PLANE = 1e-3  # of the largest velocity: less than this across the plane is none
 ALIKE = 1e-3  # of the live work, or of e*: less of a difference is none
 GOLDEN = 0.5 * (5.0**0.5 - 1.0)
+ROUNDING = 1e-9  # of the weight: a force that is none
+UP = (0.0, 0.0, 1.0)
 ROOM = 1e-3  # of the associated load factor: without sliding an answer lies below it by rounding
 
 GIVEN = "given"
@@ -119,11 +125,28 @@ def remarks(model: Model, rates: Array, confidence: float) -> tuple[str, ...]:
             "there is fill among the dead loads, whose mass is not pushed; masses added to both loads are"
             " (limitblocks.loads.added_mass)"
         )
+    if pressing := _pressing(model):
+        said.append(
+            f"forces among the dead loads press down with {pressing / 1e3:.4g} kN, whose mass is not pushed;"
+            " where it moves with the blocks, as of a floor, give it to both loads"
+            " (limitblocks.loads.added_mass)"
+        )
     if not _plane(model, rates):
         said.append(
             "the mechanism is not parallel to one plane: the equations are calibrated for such (C8.7.1.2.1.6)"
         )
     return tuple(said)
+
+
+def _pressing(model: Model) -> float:
+    """What presses blocks down, N, and is not pushed, beside fill and the prestress of ties."""
+    laid = Load(tuple(one for one in model.dead.terms if not isinstance(one[1], MassProportional | Fill)))
+    pulls = [of(pull) for own in model.interfaces for pull in prestress(own, model)]
+    masses = [(k, replace(one, direction=UP)) for k, one in model.live.terms if isinstance(one, AddedMass)]
+    load = laid - sum(pulls, Load()) + Load(tuple(masses))
+    down = -load.on(model.free_blocks)[:, 2]
+    weight = sum(block.weight for block in model.free_blocks)
+    return float(down[down > ROUNDING * weight].sum())
 
 
 def _plane(model: Model, rates: Array) -> bool:

@@ -5,11 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from facades import ARM, FC, FLOOR, SITE, WEIGHT, G, H, T
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.evidence.ending import Status
 from limitblocks.mechanics import Load
-from limitblocks.practice import Floor, FloorMode, Spectrum, capacity_curve, verification
+from limitblocks.practice import Floor, FloorMode, Spectrum, capacity_curve, reinforced, tie, verification
 
 PUSH = lb.mass_proportional((1, 0, 0))
 
@@ -241,6 +242,38 @@ def test_a_mass_that_weighs_is_pushed_too(facade):
     with pytest.raises(lb.ModelError, match="the weights times 0; expected 1"):
         verification(alone, lb.bounds(alone), SITE, q=2.0)
     assert any(floor.block in one.name for one in verification(pushed, lb.bounds(pushed), SITE, q=2.0).masses)
+
+
+def test_a_floor_given_as_a_force_has_no_mass_and_is_told():
+    """W t / 2 + P t / 2 = alpha W h / 2, and as a mass alpha (W h / 2 + P h); prestress has none."""
+    b, h, W, P = 1.0, 4.0, 80e3, 20e3  # m, N
+    stones = [
+        lb.Block.box("ground", (8, 4, 0.4), (0, 0, -0.2)),
+        lb.Block.box("wall", (b, 1, h), (0, 0, h / 2), W / (b * h)),
+    ]
+    wall = model_of(stones, ["ground"], lb.PointContact(0.8))
+    mass = lb.loads.added_mass("wall", (0, 0, h), weight=P)
+    pushed = replace(wall, live=lb.mass_proportional((1, 0, 0), [mass]))
+    yields, area = 100e3, 1e-3
+    bar = tie("wall", (0, 0, 1), "ground", (0, 0, -1), area=area, strength=yields / area, prestress=P)
+    loads = (
+        lb.loads.force("wall", (0, 0, -P), (0, 0, h)),
+        lb.loads.top_force((0, 0, -P), (0, 0)),
+        lb.loads.line_load((0, 0, -P), (-0.5, 0), (0.5, 0)),
+        lb.loads.pressure("wall", P / b, facing=(0, 0, 1)),
+    )
+    still, moved = (W + P) * b / (W * h), (W + P) * b / 2 / (W * h / 2 + P * h)
+    models = [(replace(wall, dead=wall.dead + load), still, True) for load in loads]
+    models += [(replace(pushed, dead=wall.dead + loads[0]), moved, False)]
+    models += [(replace(pushed, dead=lb.self_weight([mass])), moved, False), (wall, b / h, False)]
+    models += [(reinforced(wall, bar), (W + yields) * b / (W * h), False)]
+    for model, alpha, told in models:
+        found = verification(model, lb.nonassociated(model), SITE, q=2.0)
+        assert found["alpha0"] == pytest.approx(alpha, rel=1e-6)
+        assert [one for one in found.remarks if "mass is not pushed" in one] == [
+            "forces among the dead loads press down with 20 kN, whose mass is not pushed; where it moves "
+            "with the blocks, as of a floor, give it to both loads (limitblocks.loads.added_mass)"
+        ] * told
 
 
 def test_a_block_that_is_lifted_only_does_work():
