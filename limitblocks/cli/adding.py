@@ -139,6 +139,7 @@ def uplift(
         from limitblocks.io import read
         from limitblocks.mechanics.loads import JointPressure
         from limitblocks.practice import uplift
+        from limitblocks.practice.partial_factors import DesignModel
         from limitblocks.practice.places import joints_named
         from limitblocks.shown import many
 
@@ -147,6 +148,8 @@ def uplift(
         asked = of_fill(unit_weight)
         if any(isinstance(term, JointPressure) for _, term in structure.dead.terms):
             asked.append("the model has water in joints already; this adds to it")
+        if isinstance(structure, DesignModel):
+            asked.append("the model has design values; this water has no gamma_G: add it before them")
         wet = joints_named(structure, interface) if interface else None
         water = uplift(structure, level, interfaces=wet, unit_weight=unit_weight, share=share)
         made = replace(structure, dead=structure.dead + water)

@@ -8,6 +8,7 @@ from typer.testing import CliRunner
 
 import limitblocks as lb
 from limitblocks import cli
+from limitblocks.practice import PartialFactors, design_model
 from limitblocks.practice.places import joints_named
 
 B, H, W, MU = 0.5, 5.0, 50e3, 0.6
@@ -103,6 +104,9 @@ def test_water_lifts_a_wall(wall, tmp_path):
     assert lb.bounds(wet).upper == pytest.approx(B / H * (1 - 0.5 * 9810 * 2 * B / W), rel=1e-6)
     twice = run("uplift", tmp_path / "wet.json", "--level", 2, "-o", tmp_path / "twice.json")
     assert "has water in joints already" in twice.stderr
+    factored = design_model(lb.read(wall), PartialFactors(1.35, 1.5, 1.2)).save(tmp_path / "design.json")
+    wetted = run("uplift", factored, "--level", 2, "-o", tmp_path / "dw.json")
+    assert "the model has design values; this water has no gamma_G" in wetted.stderr
     assert "kN/m3" in run(*asked, "--force", "--unit-weight", 9.81).stderr
     for wrong, said in (
         (("--share", 2), "share"),
