@@ -9,6 +9,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.geometry import Block
+from limitblocks.joints import Backfill
 from limitblocks.mechanics.loads.faces import integrals
 from limitblocks.mechanics.loads.fills import UP, Fill
 from limitblocks.mechanics.loads.load import some
@@ -21,6 +22,8 @@ _SAME = 1e-3
 _MUCH = 0.1
 #: Unit weight, N/m3, that neither water nor soil has: concrete has 2.5e4.
 HEAVY_FILL = 3e4
+#: Cosine from which fill counts as on the other side.
+_TOWARDS = 1e-6
 _ROUNDED = 1e-9  # of the fill on a face: less is missing by rounding
 
 
@@ -28,6 +31,7 @@ def of_fills(model: Model) -> Iterator[str]:
     """Return what is asked about the fill of a model."""
     yield from _twice(model)
     yield from _on_both_sides(model)
+    yield from of_resisting(model)
 
 
 def _on_both_sides(model: Model) -> Iterator[str]:
@@ -50,6 +54,21 @@ def _on_both_sides(model: Model) -> Iterator[str]:
                 f"fill presses {some([blocks[k].name for k in sorted(lost)])} from both sides, where {what}: "
                 "is there fill on both? If on one, say beyond which place and towards where"
             )
+
+
+def of_resisting(model: Model) -> Iterator[str]:
+    """Return what is asked about passive fill on that side of a block where the fill of the model is not."""
+    fills = [term for _, term in model.dead.terms if isinstance(term, Fill)]
+    if not fills or not all(term.towards for term in fills):
+        return
+    ways = np.array([term.towards for term in fills])
+    held = [one for one in model.interfaces if isinstance(one.joint, Backfill)]
+    aside = [one.block_i for one in held if (ways @ one.axes[2] > _TOWARDS).all()]  # it points off its fill
+    if aside:
+        yield (
+            f"fill resists {some([*dict.fromkeys(aside)])} from the other side than that of the fill among "
+            f"the dead loads, {fills[0].in_words()}: give passive_fill the same beyond and towards"
+        )
 
 
 def _above(block: Block, face: int, fill: Fill) -> float:

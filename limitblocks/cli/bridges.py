@@ -11,7 +11,7 @@ from limitblocks.cli import analyses
 from limitblocks.cli.answers import NOTHING, Kept, answer, keeping
 from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.options import Force, ModelFile, NewModel
-from limitblocks.cli.vectors import numbers
+from limitblocks.cli.vectors import numbers, vector
 
 if TYPE_CHECKING:
     from limitblocks.model import Model
@@ -50,6 +50,12 @@ WithVehicle = Annotated[
     typer.Option(
         "--model", metavar="MODEL", help="Also write the model with the vehicle at its worst, for `adequacy`."
     ),
+]
+Beyond = Annotated[
+    Any, vector("--beyond", names="X,Y", help="Place in plan, m, where the fill ends sideways.")
+]
+Towards = Annotated[
+    Any, vector("--towards", names="X,Y", help="Horizontal direction from there to the fill.")
 ]
 Weighs = Annotated[bool, typer.Option("--weight", help="Add the weight of the fill to the dead loads, too.")]
 
@@ -99,6 +105,8 @@ def backfill(
     passive: Coefficient,
     output: NewModel,
     block: Resisting = None,
+    beyond: Beyond = None,
+    towards: Towards = None,
     weight: Weighs = False,
     force: Force = False,
 ) -> None:
@@ -108,6 +116,7 @@ def backfill(
 
         from limitblocks.analysis.magnitudes import of_fill
         from limitblocks.analysis.magnitudes_of_bridges import of_level, of_passive
+        from limitblocks.analysis.magnitudes_of_fills import of_resisting
         from limitblocks.io import read
         from limitblocks.joints import Backfill
         from limitblocks.loads import fill
@@ -122,14 +131,16 @@ def backfill(
             asked = *asked, "the model has fill that resists already; this adds to it"
         for question in asked:
             typer.echo(f"warning: {question}", err=True)
-        held = passive_fill(
-            structure, level, unit_weight=unit_weight, coefficient=passive, blocks=tuple(block or ())
-        )
+        side: Any = {"beyond": beyond, "towards": None if towards is None else (*towards, 0.0)}
+        given: Any = {"coefficient": passive, "blocks": tuple(block or ())} | side
+        held = passive_fill(structure, level, unit_weight=unit_weight, **given)
         made = reinforced(structure, *held)
+        for question in of_resisting(made):
+            typer.echo(f"warning: {question}", err=True)
         if weight:
             if any(isinstance(term, Fill) for _, term in structure.dead.terms):
                 typer.echo("warning: the model has the weight of fill already; --weight adds to it", err=True)
-            made = replace(made, dead=made.dead + fill(unit_weight, level))
+            made = replace(made, dead=made.dead + fill(unit_weight, level, **side))
         blocks = many(len({one.interface.block_i for one in held}), "block")
         faces = many(len(held), "face")
         typer.echo(f"{made.save(output, overwrite=force)}: {made}, fill holds {blocks} on {faces}")

@@ -13,7 +13,7 @@ from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import axes_of
 from limitblocks.joints import Backfill
 from limitblocks.mechanics.loads import Fill
-from limitblocks.mechanics.loads.load import number, unit_vector
+from limitblocks.mechanics.loads.load import number, place, unit_vector
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.elements import CORNERS, Element
 
@@ -28,6 +28,8 @@ def passive_fill(
     coefficient: float,
     blocks: Sequence[str] = (),
     along: Sequence[float] = (1.0, 0.0, 0.0),
+    beyond: Sequence[float] | None = None,
+    towards: Sequence[float] | None = None,
 ) -> list[Element]:
     """Return the one-sided passive resistance of backfill, for :func:`~limitblocks.practice.reinforced`.
 
@@ -54,11 +56,14 @@ def passive_fill(
         Blocks that touch the fill; all free ones unless given.
     along : sequence of float
         Horizontal direction along the deck.
+    beyond, towards : sequence of float
+        Where the fill ends sideways, as of :func:`~limitblocks.loads.fill`: needed where it lies on one side
+        of a wall alone.
 
     Raises
     ------
     ModelError
-        If a number is out of range, the direction is not horizontal, or no block lies under the fill with a
+        If a number is out of range, a direction is not horizontal, or no block lies under the fill with a
         face that leans along the deck.
     """
     checked_model(model)
@@ -67,14 +72,20 @@ def passive_fill(
     d, names = np.array(unit_vector(along, "direction along the deck")), sequence_of("blocks", blocks, str)
     if abs(d[2]) > STEEP:
         raise ModelError(f"direction along the deck is {along!r}, expected a horizontal one")
+    side = (
+        None if beyond is None else place(beyond, "fill: beyond"),
+        None if towards is None else unit_vector(towards, "fill: towards"),
+    )
     free, elements = model.free_blocks, []
-    for k, face, weight, first in Fill(unit_weight, level, names).on_faces(free):
+    for k, face, weight, first in Fill(unit_weight, level, names, 0.0, *side).on_faces(free):
+        if not weight:
+            continue
         normal, block = free[k].normals[face], free[k]
         push = -coefficient * weight * float(normal @ d) / float(normal[2])
         if not abs(push) > STEEP * coefficient * weight:
             continue
-        place = first / weight  # of the resultant about the centroid; where along the deck does not matter
-        at = block.centroid + place - (place @ d) * d
+        middle = first / weight  # of the resultant about the centroid; where along the deck does not matter
+        at = block.centroid + middle - (middle @ d) * d
         passive = coefficient * unit_weight * (level - at[2])  # pressure where the resultant acts
         elements.append(
             Element(

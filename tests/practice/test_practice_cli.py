@@ -1,6 +1,7 @@
 """The commands settle, capacity, verify and vehicle."""
 
 import json
+from dataclasses import replace
 
 import facades
 import pytest
@@ -351,3 +352,22 @@ def test_verify_without_a_whole_curve_has_the_linear_check_and_fails(block, monk
     assert [(one["name"], one["satisfied"]) for one in found["checks"]] == [("linear, SLV", True)]
     assert found["left_out"].startswith("no non-linear check: the capacity curve does not end at zero")
     assert run("verify", block, *site, "--linear", "--json").exit_code == 0
+
+
+def test_fill_on_one_side_of_a_wall_from_the_shell(tmp_path):
+    """W = 20e3 x 3, E = gamma .5 h / 2: off the fill alpha W = mu (W + E)."""
+    outline = [(-1, 0), (1, 0), (0.5, 2), (-0.5, 2)]
+    stones = [
+        lb.Block.box("ground", (8, 1, 0.4), (0, 0, -0.2)),
+        lb.Block.prism("wall", outline, (0, 1), 20e3),
+    ]
+    joints = lb.find_interfaces(stones, lb.PointContact(0.3))
+    wall = lb.Model(stones, ["ground"], joints, lb.self_weight(), lb.mass_proportional((-1, 0, 0)))
+    file, held, whole = wall.save(tmp_path / "wall.json"), tmp_path / "held.json", tmp_path / "whole.json"
+    fill = ("--level", 2, "--unit-weight", 18e3, "--passive", 3)
+    done = run("backfill", file, *fill, "--weight", "--beyond", 0, 0, "--towards", 1, 0, "-o", held)
+    assert (done.exit_code, done.stderr) == (0, "")
+    W, E = 60e3, 18e3 * 0.5 * 2 / 2
+    assert lb.bounds(lb.read(held)).lower == pytest.approx(0.3 * (W + E) / W, rel=1e-6)
+    half = replace(wall, dead=lb.read(held).dead).save(tmp_path / "half.json")
+    assert "from the other side" in run("backfill", half, *fill, "-o", whole).stderr

@@ -235,6 +235,32 @@ def test_passive_fill_holds_a_block_that_moves_into_it_only():
     assert fill[0].interface.joint.strength == pytest.approx(2.0 * 1e3 * (1.5 - 5 / 12))
 
 
+@pytest.mark.parametrize(("way", "held"), [(1, True), (-1, False)])
+def test_fill_on_one_side_holds_a_wall_that_moves_into_it_alone(way, held):
+    """alpha W = mu (W + E) + K_p gamma h^2 / 2 into the fill, and without the last off it."""
+    mu, gamma, h, K, run = 0.3, 18e3, 2.0, 3.0, 0.5
+    outline = [(-1, 0), (1, 0), (1 - run, h), (-1 + run, h)]
+    stones = [
+        lb.Block.box("ground", (8, 1, 0.4), (0, 0, -0.2)),
+        lb.Block.prism("wall", outline, (0, 1), 20e3),
+    ]
+    side = {"beyond": (0, 0), "towards": (1, 0, 0)}
+    bare = model_of(stones, ["ground"], lb.PointContact(mu))
+    bare = replace(
+        bare, dead=bare.dead + lb.loads.fill(gamma, h, **side), live=lb.mass_proportional((way, 0, 0))
+    )
+    given = {"unit_weight": gamma, "coefficient": K}
+    model = reinforced(bare, *passive_fill(bare, h, **given, **side))
+    W, E = bare.free_blocks[0].weight, gamma * run * h / 2
+    expected = (mu * (W + E) + held * K * gamma * h**2 / 2) / W
+    assert lb.bounds(model).lower == pytest.approx(expected, rel=1e-6)
+    assert not [one for one in lb.diagnose(model).questions if "from the other side" in one]
+    both = reinforced(bare, *passive_fill(bare, h, **given))
+    assert [
+        one for one in lb.diagnose(both).questions if "fill resists block 'wall' from the other side" in one
+    ]
+
+
 def test_eurocode_and_housner():
     """Top of a building in resonance: 5.5 alpha S; a block of 1 m x 4 m."""
     top = element_acceleration(0.2, 1.2, z=9.0, height=9.0, element_period=0.4, building_period=0.4)
