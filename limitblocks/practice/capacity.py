@@ -67,8 +67,8 @@ def capacity_curve(
         blocks, and keep their directions.
     control : (str, sequence of float), optional
         Block and point (m) whose displacement along the live load is measured. Default: of the block that
-        moves fastest along it, of several the highest, the foremost of the highest corners: on a wall that of
-        the outer face, whose displacement at zero is the least.
+        moves fastest along it, of several the highest, the foremost of the highest corners, or the middle of
+        several: on a wall that of the outer face, whose displacement at zero is the least.
     steps : int
         Points to the zero that the slope of the curve foretells. Between two of them the mechanism of the
         first is followed: more steps see sooner where another takes over.
@@ -209,9 +209,11 @@ def _control(model: Model, result: Nonassociated, given: Any) -> Control:
         speeds, tops = rates[:, :3] @ direction, np.array([b.vertices[:, 2].max() for b in model.blocks])
         tops[speeds < (1.0 - STILL) * speeds.max()] = -np.inf  # of blocks that move as one, the highest
         block = model.blocks[int((tops >= tops.max() - CLOSED * moving.assembly_of(model).size).argmax())]
-        height = block.vertices[:, 2]
-        highest = block.vertices[height >= height.max() - CLOSED * block.size]
-        point = highest[(highest @ direction).argmax()]
+        point = block.vertices
+        for way in (np.array([0.0, 0.0, 1.0]), direction):
+            ahead = point @ way
+            point = point[ahead >= ahead.max() - CLOSED * block.size]
+        point = point.mean(axis=0)  # which corner is the foremost may be a matter of rounding
     else:
         if not isinstance(given, tuple | list) or len(given) != 2 or not isinstance(given[0], str):
             raise ModelError(f"control is {given!r}, expected a block and a point, ('wall', (0.5, 0, 5))")

@@ -12,6 +12,8 @@ import limitblocks as lb
 from limitblocks.practice import (
     answered,
     capacity_curve,
+    reinforced,
+    tie,
 )
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
@@ -186,3 +188,19 @@ def test_a_wall_held_at_its_top_bends_outwards():
     turns = [brentq(lambda a, d=d: centres(a)[2].real - d, 1e-6, 0.3) for d in curve.displacements[1:]]
     assert curve.load_factors[1:] == pytest.approx([load_factor(a) for a in turns], abs=1e-7)
     assert len(turns) > 3
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_the_control_point_is_the_middle_of_the_foremost_corners_that_tie(side):
+    """A stone held at one side turns as it slides: each corner alone goes another way."""
+    ground = lb.Block.box("ground", (4.0, 4.0, 0.4), (0.0, 0.0, -0.2))
+    anchor = lb.Block.box("anchor", (0.2, 0.2, 0.2), (-2.0, side * 0.4, 0.5))
+    stone = lb.Block.box("stone", (1.0, 1.0, 1.0), (0.0, 0.0, 0.5), 20e3)
+    seat = lb.find_interfaces([ground, stone], lb.PointContact(0.2))
+    free = lb.Model(
+        [ground, anchor, stone], ["ground", "anchor"], seat, lb.self_weight(), lb.mass_proportional((1, 0, 0))
+    )
+    held = tie("stone", (-0.5, side * 0.4, 0.5), "anchor", (-1.9, side * 0.4, 0.5), area=1e-4, strength=4e7)
+    curve = capacity_curve(reinforced(free, held), steps=2, largest=0.2)
+    assert curve.points[0].load_factor > 0.2  # of friction alone
+    assert curve.control.point == pytest.approx((0.5, 0.0, 1.0))
