@@ -313,3 +313,23 @@ def test_an_outer_loop_that_follows_paths_and_is_interrupted_says_so(monkeypatch
     with pytest.raises(lb.NotConverged, match="interrupted") as caught:
         lb.nonassociated(model, means=(nothing, nothing), progress=press)
     assert caught.value.result.status is lb.results.Status.INTERRUPTED
+
+
+@pytest.mark.parametrize("rounds", [1, 8])
+def test_an_outer_loop_alone_that_is_interrupted_leaves_its_best_round(rounds):
+    """Each has a lesser residual than the one before, here."""
+    model = lb.structures.wall(lb.OrdunaLourenco(0.65), length=1.2, courses=4)
+    seen = []
+
+    def press(iteration):
+        seen.append(iteration)
+        if len(seen) == rounds:
+            raise KeyboardInterrupt
+
+    with pytest.raises(lb.NotConverged, match="interrupted: flow residual") as caught:
+        lb.nonassociated(model, method="fixed point", progress=press)
+    found = caught.value.result
+    assert found.status is lb.results.Status.INTERRUPTED
+    assert found.load_factor == pytest.approx(min(one.load_factor for one in seen[:rounds]), rel=1e-12)
+    assert f"not closed in {rounds} round" in found.how
+    assert found.how.endswith("interrupted")

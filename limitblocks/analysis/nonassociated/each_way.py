@@ -15,7 +15,6 @@ from limitblocks.analysis.nonassociated.outer_loop import outer_loop, told
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import (
     DISPLACED,
-    FROZEN,
     INCREMENTS,
     INTERRUPTED,
     UNSETTLED,
@@ -117,7 +116,4 @@ class Given:
     def frozen(self) -> Way:
         """Return what one analysis after the other leads to, each with the friction of the last."""
         flow = self.flow
-        try:
-            return outer_loop(flow, self.x0, self.tolerance, lambda *one: self.record(told(flow, *one)))
-        except KeyboardInterrupt:
-            return self.start, f"{FROZEN}, {INTERRUPTED}"
+        return outer_loop(flow, self.x0, self.tolerance, lambda *one: self.record(told(flow, *one)))

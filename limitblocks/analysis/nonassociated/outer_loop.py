@@ -28,7 +28,7 @@ import cvxpy as cp
 import numpy as np
 
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, fixed_point
-from limitblocks.analysis.nonassociated.path_record import FROZEN
+from limitblocks.analysis.nonassociated.path_record import FROZEN, INTERRUPTED
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import Program, in_cone, solved, solvers
 from limitblocks.arrays import Array
@@ -129,6 +129,8 @@ def outer_loop(
 ) -> tuple[State, str]:
     """Return the solution that the rounds lead to, or their state of least residual, and how it was found.
 
+    Where the user stops it these are of the rounds until then.
+
     Parameters
     ----------
     flow : Flow
@@ -147,27 +149,31 @@ def outer_loop(
     rotation, last = rounds.rotation, np.inf
     met = [State(0.0, x, np.zeros(problem.C.shape[1]), np.zeros(len(problem.g)))]
     closed: list[tuple[float, State, int]] = []  # drift of the load factor, solution, round
-    for k in range(1, rounds.most + 1):
-        frozen = analysis.find(x, rotation, rounds.cohesion)
-        if frozen is None:
-            break
-        met.append(frozen)
-        record(frozen, rotation, k)
-        size = abs(frozen.load_factor)
-        if abs(frozen.load_factor - last) <= rounds.still * size:
-            state = _closed(nearest, frozen, flow, tolerance, rounds)
-            if state is not None:
-                drift = abs(state.load_factor - frozen.load_factor)
-                closed.append((drift, state, k))
-                if drift <= rounds.drift * size:
-                    break
-        last, rotation = frozen.load_factor, rotation * rounds.fading
-        x = rounds.relaxation * frozen.x + (1.0 - rounds.relaxation) * x
+    stopped = ""
+    try:
+        for k in range(1, rounds.most + 1):
+            frozen = analysis.find(x, rotation, rounds.cohesion)
+            if frozen is None:
+                break
+            met.append(frozen)
+            record(frozen, rotation, k)
+            size = abs(frozen.load_factor)
+            if abs(frozen.load_factor - last) <= rounds.still * size:
+                state = _closed(nearest, frozen, flow, tolerance, rounds)
+                if state is not None:
+                    drift = abs(state.load_factor - frozen.load_factor)
+                    closed.append((drift, state, k))
+                    if drift <= rounds.drift * size:
+                        break
+            last, rotation = frozen.load_factor, rotation * rounds.fading
+            x = rounds.relaxation * frozen.x + (1.0 - rounds.relaxation) * x
+    except KeyboardInterrupt:
+        stopped = f", {INTERRUPTED}"
     if closed:
         _, state, k = min(closed, key=lambda one: one[0])
-        return state, f"{FROZEN}, {many(k, 'round')}"
+        return state, f"{FROZEN}, {many(k, 'round')}{stopped}"
     best = min(met, key=lambda state: mcp_residuals(flow, state).worst.value)
-    return best, f"{FROZEN}, not closed in {many(len(met) - 1, 'round')}"
+    return best, f"{FROZEN}, not closed in {many(len(met) - 1, 'round')}{stopped}"
 
 
 def _closed(
