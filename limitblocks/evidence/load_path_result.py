@@ -158,10 +158,12 @@ class LoadPath(Result):
         }
 
 
-def compared(load_factor: float, tracked: float) -> tuple[str, ...]:
-    """Whether the end agrees with that of the tracked path, in words."""
+def compared(load_factor: float, tracked: float, ended: bool) -> tuple[str, ...]:
+    """Whether the end agrees with that of the tracked path, in words; that of a path that `ended`."""
     if np.isnan(tracked):
         return ("the tracked path of nonassociated with a small barrier ends at no solution here",)
+    if not ended:
+        return (f"the tracked path of nonassociated ends at {tracked:.6g}; this path has no end to compare",)
     off = abs(tracked - load_factor)
     if off <= AGREE * abs(load_factor):
         return (f"the tracked path of nonassociated ends at the same load factor, within {AGREE:g}",)

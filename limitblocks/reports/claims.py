@@ -122,7 +122,8 @@ def judged_path(model: Model, path: LoadPath) -> LoadPath | CheckedClaim:
         return end
     if not steps_residual(model, path).value <= end.tolerance:
         return CheckedClaim(claim_of(model, path), check_mcp(model, path, tolerance=end.tolerance))
-    told = compared(path.load_factor, path.tracked) if isfinite(path.tracked) else path.remarks[:1]
+    known = isfinite(path.tracked)
+    told = compared(path.load_factor, path.tracked, end.accepted) if known else path.remarks[:1]
     return replace(path, collapse=end, remarks=(*told, *path.remarks[1:]))
 
 

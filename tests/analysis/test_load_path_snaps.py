@@ -16,6 +16,7 @@ from limitblocks.analysis.nonassociated.increment import Increment, Tried
 from limitblocks.analysis.nonassociated.permanent import permanent_state
 from limitblocks.analysis.nonassociated.stretch import Visit
 from limitblocks.problem import Flow
+from limitblocks.reports.claims import judged_path
 from limitblocks.structures.convex import hull
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -69,6 +70,34 @@ def test_a_tracked_path_that_the_user_stops_is_not_said_to_end_at_no_solution(mo
     assert path.collapse.converged
     assert np.isnan(path.tracked)
     assert path.remarks[0].startswith("the tracked path of nonassociated was stopped by the user")
+
+
+def test_a_path_that_the_user_stops_has_no_end_to_compare():
+    """The difference is that between its first increment and a collapse, not that of two ways there."""
+
+    def press(iteration):
+        if iteration.kind == "step":
+            raise KeyboardInterrupt
+
+    path = lb.load_path(
+        structures.wall(lb.OrdunaLourenco(0.6), length=1.2, courses=3), progress=press, throw=False
+    )
+    assert path.collapse.status is lb.results.Status.INTERRUPTED
+    assert np.isnan(path.tracked)
+    assert path.remarks[0].startswith("the user stopped this path")
+    assert not any("% off" in remark for remark in path.remarks)
+
+
+def test_a_path_that_does_not_end_is_not_said_to_end_elsewhere_than_the_tracked_path(monkeypatch):
+    """Nor where it is judged anew, as files are."""
+    monkeypatch.setattr(loaded, "endless", lambda *_: None)
+    model = structures.wall(lb.PointContact(0.65), length=1.2, courses=4)
+    path = lb.load_path(model, settings=lb.settings.Settings(budget=90), throw=False)
+    assert not path.collapse.accepted
+    assert path.tracked == pytest.approx(lb.nonassociated(model).load_factor, rel=1e-9)
+    said = f"the tracked path of nonassociated ends at {path.tracked:.6g}; this path has no end to compare"
+    assert path.remarks[0] == said
+    assert judged_path(model, path).remarks[0] == said
 
 
 def test_a_wall_leaves_its_loose_buttress_at_b_over_h():

@@ -32,7 +32,7 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, UnlimitedLoad, refuse_kind
 from limitblocks.evidence.load_path_result import LoadPath, compared
 from limitblocks.evidence.residuals import TOLERANCE
-from limitblocks.evidence.results import Iteration
+from limitblocks.evidence.results import Iteration, Status
 from limitblocks.joints.base import Joint
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
@@ -49,6 +49,7 @@ PASSED_OVER = (
     "follow it"
 )
 NOT_COMPARED = "the tracked path of nonassociated was stopped by the user: nothing to compare this end with"
+NO_END = "the user stopped this path: no end of it to compare with that of the tracked path of nonassociated"
 
 Snaps = Literal["across", "along"]
 
@@ -154,11 +155,13 @@ def load_path(
     remarks = (*_of_snaps(found.pushes, problem.units.live), *(found.why,) * bool(found.why))
     if found.how == AT_ONCE:
         return LoadPath(steps, collapse, folds, trace, collapse.load_factor, remarks)
+    if collapse.status is Status.INTERRUPTED:  # who stops the load path waits for no other
+        return LoadPath(steps, collapse, folds, trace, np.nan, (NO_END, *remarks))
     try:
         tracked = end_of_first_path(model, flow, enclosing.associated, start, tolerance)
     except KeyboardInterrupt:  # the load path is complete
         return LoadPath(steps, collapse, folds, trace, np.nan, (NOT_COMPARED, *remarks))
-    remarks = (*compared(collapse.load_factor, tracked), *remarks)
+    remarks = (*compared(collapse.load_factor, tracked, collapse.accepted), *remarks)
     return LoadPath(steps, collapse, folds, trace, tracked, remarks)
 
 
