@@ -250,6 +250,28 @@ def test_an_interrupted_path_leaves_its_best_state():
     assert found.how.endswith("interrupted")
 
 
+@pytest.mark.parametrize(
+    ("analysis", "options"),
+    [(lb.nonassociated, {}), (lb.nonassociated, {"method": "fixed point"}), (lb.load_path, {})],
+)
+@pytest.mark.parametrize("patience", [3, np.inf])
+def test_a_progress_that_stops_again_and_again_leaves_the_best_state(analysis, options, patience):
+    """As one with a time limit does: it is told of the end as well, or of nothing else after its limit."""
+    model = structures.ferris_tin_loi_wall(1, lb.PointContact(0.65))
+    seen = []
+
+    def press(iteration):
+        seen.append(iteration)
+        if len(seen) > patience or iteration.kind == "polish":
+            raise KeyboardInterrupt
+
+    path = analysis(model, progress=press, throw=False, **options)
+    found = path if analysis is lb.nonassociated else path.collapse
+    assert found.status is (lb.results.Status.CONVERGED if patience > 3 else lb.results.Status.INTERRUPTED)
+    assert seen[-1].kind == "polish"
+    assert found.load_factor == pytest.approx(seen[-1].load_factor, rel=1e-12)
+
+
 @pytest.mark.parametrize("points", [20, 29, 38])
 def test_an_interrupted_path_leaves_its_last_point_where_that_is_nearer_than_what_was_polished(
     monkeypatch, points

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -46,10 +48,11 @@ TRY_LOAD_PATH = (
 )
 
 
-def end(flow: Flow, state: State) -> Iteration:
-    """What the polished end tells the user."""
+def tell_end(flow: Flow, state: State, record: Callable[[Iteration], None]) -> None:
+    """Tell the user of the polished end; all of it is there where they stop it only now, or once more."""
     load_factor = float(state.load_factor / flow.problem.units.live)
-    return Iteration(load_factor, "polish", 0.0, mcp_residuals(flow, state).to_dict(), 0, 0)
+    with suppress(KeyboardInterrupt):
+        record(Iteration(load_factor, "polish", 0.0, mcp_residuals(flow, state).to_dict(), 0, 0))
 
 
 def finished(

@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from limitblocks.analysis.nonassociated.finished import end, finished
+from limitblocks.analysis.nonassociated.finished import finished, tell_end
 from limitblocks.analysis.nonassociated.in_the_plane import (
     by_self_stress,
     flow_in_plane,
@@ -135,7 +135,7 @@ def load_path(
     found = found or load(flow, start_stresses(model, flow, weights, start), weights)
     if found.why == CLIMBS:
         raise UnlimitedLoad(CLIMBS)
-    record(end(flow, found.last))
+    tell_end(flow, found.last, record)
     said = by_self_stress(model, flow, weights) if start is None and found.how != AT_ONCE else ()
     said = (*said, *(found.why,) * found.beyond)
     collapse = finished(

@@ -9,7 +9,7 @@ import numpy as np
 
 from limitblocks.analysis.nonassociated.determinate import state_without_solution
 from limitblocks.analysis.nonassociated.each_way import Given
-from limitblocks.analysis.nonassociated.finished import end, finished
+from limitblocks.analysis.nonassociated.finished import finished, tell_end
 from limitblocks.analysis.nonassociated.in_the_plane import (
     by_self_stress,
     flow_in_plane,
@@ -140,7 +140,7 @@ def nonassociated(
 
         state, how = found_in_plane_or_whole(model, flow, first, tolerance, solve)
         said = by_self_stress(model, flow, flow.problem.compliance) if first is None else ()
-    record(end(flow, state))
+    tell_end(flow, state, record)
     return finished(
         model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm, limit=limit, said=said
     )
