@@ -25,14 +25,15 @@ class PathStep(Shown):
     stress_resultants : Array, shape (m, 6)
         (V1, V2, N, M1, M2, T) of each interface, N and N m.
     displacements : Array, shape (n, 6)
-        Of each block since the permanent loads, m and rad; their size is relative to the joints' compliance.
+        Of each block since the first state, m and rad; their size is relative to the joints' compliance.
     active : tuple of tuple
         (interface, mode) pairs that flow in this step and did not in the one before.
     residuals : dict
         Equilibrium and yield violation, over what acts on the blocks.
     kind : str
-        "permanent loads", "step" (the end of an increment), "before snap", "unstable" (between the two ends
-        of a snap), "after snap" or "polish" (collapse, at the displacements where the increments end).
+        "permanent loads", or "start" where the path was told to start from a state with live load; "step"
+        (the end of an increment), "before snap", "unstable" (between the two ends of a snap), "after snap" or
+        "polish" (collapse, at the displacements where the increments end).
     """
 
     load_factor: float

@@ -27,6 +27,7 @@ from limitblocks.plots.style import (
 COMPONENTS: Mapping[str, int] = {"X": 0, "Y": 1, "Z": 2, "rX": 3, "rY": 4, "rZ": 5}
 KINDS = {
     "permanent loads": "D",
+    "start": "D",
     "step": "o",
     "before snap": "v",
     "unstable": "x",
@@ -121,7 +122,10 @@ def load_path(
     for kind in dict.fromkeys(step.kind for step in path.steps):
         these = [step.kind == kind for step in path.steps]
         size = 11.0 if kind == "polish" else 4.5
-        style = {"color": BLUE if kind in ("permanent loads", "step") else VERMILION, "markersize": size}
+        style = {
+            "color": BLUE if kind in ("permanent loads", "start", "step") else VERMILION,
+            "markersize": size,
+        }
         style |= {"label": WORDS.get(kind, kind), "linestyle": "none"}
         ax.plot(x[these], loads[these], KINDS.get(kind, "o"), **style)
     word = "displacement of {} along {} (m)" if axis < 3 else "rotation of {} about {} (rad)"

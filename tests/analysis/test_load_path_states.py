@@ -152,6 +152,26 @@ def test_a_path_goes_on_from_a_result(walked):
     assert again.load_factor == pytest.approx(path.load_factor, abs=1e-5)
 
 
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
+def test_a_path_starts_at_the_load_factor_that_its_first_stresses_balance(joint, share):
+    """A block of weight W under a push a W at its centroid: V = a W, M2 = a W h / 2, N = -W, up to a = b/h.
+
+    It said load factor 0, and the check of the path failed by what the live load left unbalanced.
+    """
+    model = structures.column(joint, count=1, width=0.4, height=1.0)
+    path = lb.load_path(model)
+    assert path.load_factor == pytest.approx(0.4, rel=1e-9)
+    dead, collapse = lb.stability(model).generalised_stresses, path.collapse.generalised_stresses
+    begun = lb.load_path(model, start=dead + share * (collapse - dead))
+    first = begun.steps[0]
+    assert first.load_factor == pytest.approx(share * 0.4, abs=1e-9)
+    assert first.kind == ("start" if share else "permanent loads")
+    assert first.residuals["equilibrium"] <= 1e-8
+    assert begun.trace[0, 2] == first.load_factor
+    assert begun.peak == pytest.approx(0.4, rel=1e-9)
+    assert lb.check_mcp(model, begun).passed
+
+
 @pytest.mark.parametrize("budget", [100, 200])
 def test_the_last_state_of_a_path_that_does_not_end_is_within_yield(budget):
     """The polish of a state far from collapse balances the loads, but a hundredth to a tenth beyond yield."""

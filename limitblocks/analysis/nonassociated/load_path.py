@@ -30,9 +30,10 @@ from limitblocks.analysis.nonassociated.stiffness import Stiffness, compliance_o
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, UnlimitedLoad, refuse_kind
+from limitblocks.evidence.ending import Status
 from limitblocks.evidence.load_path_result import LoadPath, compared
 from limitblocks.evidence.residuals import TOLERANCE
-from limitblocks.evidence.results import Iteration, Status
+from limitblocks.evidence.results import Iteration
 from limitblocks.joints.base import Joint
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
@@ -152,7 +153,10 @@ def load_path(
     )
     told_by = Told(softness * displacement_units(model, problem), snaps)
     steps, folds, trace = told(model, flow, found.x0, found.pushes, found.last, told_by)
-    remarks = (*_of_snaps(found.pushes, problem.units.live), *(found.why,) * bool(found.why))
+    remarks = (
+        *_of_snaps(found.pushes, steps[0].load_factor, problem.units.live),
+        *(found.why,) * bool(found.why),
+    )
     if found.how == AT_ONCE:
         return LoadPath(steps, collapse, folds, trace, collapse.load_factor, remarks)
     if collapse.status is Status.INTERRUPTED:  # who stops the load path waits for no other
@@ -165,11 +169,14 @@ def load_path(
     return LoadPath(steps, collapse, folds, trace, tracked, remarks)
 
 
-def _of_snaps(pushes: tuple[Pushed, ...], unit: float) -> Iterator[str]:
-    """What is said of snaps that were rounded or passed over; `unit` is that of the live load."""
+def _of_snaps(pushes: tuple[Pushed, ...], begin: float, unit: float) -> Iterator[str]:
+    """What is said of snaps that were rounded or passed over; the path begins at the load factor `begin`.
+
+    `unit` is that of the live load.
+    """
     if any(one.increment.rounded and one.increment.folds for one in pushes):
         yield ROUNDED
-    starts = (0.0, *(one.state.load_factor for one in pushes))
+    starts = (begin * unit, *(one.state.load_factor for one in pushes))
     falls = [
         (before, one.state.load_factor)
         for before, one in zip(starts, pushes, strict=False)

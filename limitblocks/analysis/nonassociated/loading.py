@@ -136,7 +136,7 @@ def pushed(
             log.info("increment rho %.2g failed after %d", rho, met.factorisations)
             failures += 1
             if met.returned:
-                sprung = pushes[-1].state.load_factor if pushes else 0.0
+                sprung = (pushes[-1].state if pushes else at_rest(flow, x0)).load_factor
                 farthest = max(farthest, tuple(pushes), key=_length)
             path, rho = _again(path, rho, pushes, met.returned, settings.growth)
             continue
@@ -173,8 +173,12 @@ def _again(path: Path, rho: float, pushes: list[Pushed], returned: bool, growth:
 
 
 def at_rest(flow: Flow, x0: Array) -> State:
-    """The state of the permanent loads, of stresses `x0`."""
-    return State(0.0, x0, np.zeros(flow.problem.C.shape[1]), np.zeros(len(flow.problem.g)))
+    """The state of stresses `x0` before anything moves: of the permanent loads, or one with live load."""
+    p = flow.problem
+    load_factor = float((p.C.T @ x0 - p.dead) @ p.live / (p.live @ p.live))
+    state = State(load_factor, x0, np.zeros(p.C.shape[1]), np.zeros(len(p.g)))
+    permanent = replace(state, load_factor=0.0)
+    return permanent if mcp_residuals(flow, permanent)["equilibrium"] <= ADMISSIBLE else state
 
 
 def _ended(flow: Flow, met: Tried, tolerance: float) -> tuple[Tried, Residuals | None, State | None]:

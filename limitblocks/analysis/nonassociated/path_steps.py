@@ -9,7 +9,7 @@ import numpy as np
 
 from limitblocks.analysis.in_si import resultants_of
 from limitblocks.analysis.nonassociated.increment import Increment
-from limitblocks.analysis.nonassociated.loading import Pushed
+from limitblocks.analysis.nonassociated.loading import Pushed, at_rest
 from limitblocks.analysis.nonassociated.stretch import Visit
 from limitblocks.arrays import Array, read_only
 from limitblocks.evidence.load_path_result import PathStep, Snap
@@ -32,18 +32,19 @@ class Told(NamedTuple):
 def told(
     model: Model, flow: Flow, x0: Array, pushes: tuple[Pushed, ...], last: State, how: Told
 ) -> tuple[tuple[PathStep, ...], tuple[Snap, ...], Array]:
-    """Return the steps from the permanent loads to `last`, the snaps and the trace (k, 3)."""
+    """Return the steps from the stresses `x0` to `last`, the snaps and the trace (k, 3)."""
     teller = _Teller(model, flow, how.unit)
-    teller.add(State(0.0, x0, 0.0 * how.unit, np.zeros(len(flow.problem.g))), "permanent loads")
-    snaps, trace = [], [np.zeros((1, 3))]
+    first = at_rest(flow, x0)
+    begin = teller.add(first, "start" if first.load_factor else "permanent loads")
+    snaps, trace = [], [np.array([(0.0, 0.0, begin.load_factor)])]
     for one in pushes:
         trace.append(teller.trace(one.increment, trace[-1][-1, 0]))
         for before, after in one.increment.folds:
             visits = one.increment.visits
-            first = teller.add(_total(visits[before]), "before snap")
+            fold = teller.add(_total(visits[before]), "before snap")
             for visit in visits[before + 1 : after] if how.snaps == "along" else ():
                 teller.add(_total(visit), "unstable")
-            snaps.append(Snap(first, teller.add(_total(visits[after]), "after snap")))
+            snaps.append(Snap(fold, teller.add(_total(visits[after]), "after snap")))
         z = one.increment.end
         teller.add(State(z.load_factor, z.x, z.u / one.increment.rho, z.y / one.increment.rho), "step")
         teller.moved = teller.moved + z.u / one.increment.rho
