@@ -149,6 +149,12 @@ def refuse_no_function(maker: object) -> None:
         )
 
 
+def refuse_no_progress(progress: object) -> None:
+    """Raise ModelError where what is to be told of the progress can neither be called nor is None."""
+    if not (progress is None or callable(progress)):
+        raise ModelError(f"progress is a {type(progress).__name__}, expected a function of one iteration")
+
+
 def near(name: str, known: Iterable[str]) -> str:
     """Return '; did you mean ...?', or nothing where no known name is like `name`."""
     letters = {one.casefold(): one for one in known}

@@ -107,6 +107,15 @@ def test_notes_that_differ_in_numbers_alone_are_one_with_the_least_and_the_most(
         (lambda model: lb.load_path(model, tolerance=-1), "tolerance is -1, expected"),
         (lambda model: lb.load_path(model, settings={"first": 0.1}), "settings is a dict, expected Settings"),
         (lambda model: lb.load_factor_range(model, paths=2.5), "paths is 2.5, expected a whole number"),
+        (
+            lambda model: lb.load_factor_range(model, seed=-1),
+            "seed is -1, expected a whole number of at least",
+        ),
+        (lambda model: lb.load_factor_range(model, seed="a"), "seed is 'a', expected a whole number of at"),
+        (lambda model: lb.load_factor_range(model, progress=3), "progress is a int, expected a function"),
+        (lambda model: lb.bounds(model, progress=3), "progress is a int, expected a function"),
+        (lambda model: lb.nonassociated(model, progress="x"), "progress is a str, expected a function"),
+        (lambda model: lb.load_path(model, progress=3), "progress is a int, expected a function"),
         (lambda model: lb.load_factor_range(model, time_limit=0), "time_limit is 0, expected more than 0 s"),
         (lambda model: lb.sensitivities(model, model), "bounds is a Model, expected Bounds"),
         (

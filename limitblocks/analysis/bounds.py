@@ -27,7 +27,7 @@ from limitblocks.analysis.splitting import Splitting
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.analysis.unlimited import explain
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import SolverFailure
+from limitblocks.errors import SolverFailure, refuse_no_progress
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.crushing import beyond_stress_block
 from limitblocks.evidence.measure import without_rounding
@@ -92,6 +92,7 @@ def bounds(model: Model, *, tolerance: float = OF_BOUNDS, progress: Tell | None 
     Solved once for each model and tolerance. Proven bounds of large models may be farther apart, and say so.
     """
     number(tolerance, "tolerance", "", above=0.0)
+    refuse_no_progress(progress)
     tell = progress or (lambda _: None)
     return known(model, ("bounds", tolerance), lambda: _bounds(model, tolerance, tell))
 

@@ -21,7 +21,7 @@ from limitblocks.analysis.nonassociated.start import (
 )
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.arrays import real
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, refuse_no_progress
 from limitblocks.evidence.range_answer import RangeAnswer
 from limitblocks.evidence.range_result import Extreme, LoadFactorRange
 from limitblocks.evidence.residuals import TOLERANCE
@@ -84,6 +84,8 @@ def load_factor_range(
     """
     checked_count("paths", paths, 1)
     checked_count("mechanisms", mechanisms, 0)
+    checked_count("seed", seed, 0)
+    refuse_no_progress(progress)
     if not real(time_limit) > 0.0:
         raise ModelError(f"time_limit is {time_limit!r}, expected more than 0 s")
     flow, enclosing = flow_of(model, dilatancy, turning)

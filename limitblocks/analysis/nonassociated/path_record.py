@@ -10,6 +10,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from limitblocks.analysis.nonassociated.path_equations import Barrier
+from limitblocks.errors import refuse_no_progress
 from limitblocks.evidence.results import ITERATIONS, Iteration
 
 CLOSED, INTERRUPTED = "closed", "interrupted"
@@ -28,6 +29,7 @@ def recorder(
     progress: Callable[[Iteration], None] | None,
 ) -> tuple[list[Iteration], Callable[[Iteration], None]]:
     """Return the history of a search, and what adds to it and tells the user."""
+    refuse_no_progress(progress)
     history: list[Iteration] = []
 
     def record(iteration: Iteration) -> None:
