@@ -7,7 +7,7 @@ from collections import Counter
 import numpy as np
 
 from limitblocks.errors import few
-from limitblocks.evidence.determined import determined
+from limitblocks.evidence.determined import determined, determined_as_slip_turns
 from limitblocks.evidence.relative_rates import MOVING, largest_rate, relative_rates
 from limitblocks.joints import Tie
 from limitblocks.model import Model
@@ -35,7 +35,10 @@ def locked_tension(model: Model, flow: Flow, state: State) -> tuple[str, ...]:
     locked = tied & (N > CARRIED) & (across > least) & (np.abs(dq[:, 2]) <= MOVING * across)
     if locked.any():
         forces = problem.resultants[6 * np.flatnonzero(locked) + 2]
-        locked[locked] = ~determined(problem, state.y, forces)
+        one_value = determined(problem, state.y, forces)
+        if one_value.any():
+            one_value &= determined_as_slip_turns(flow, state, forces)
+        locked[locked] = ~one_value
     if not locked.any():
         return ()
     counts = Counter(problem.interfaces[k] for k in np.flatnonzero(locked))

@@ -342,3 +342,27 @@ def test_a_strip_or_dowel_off_its_joint_is_refused(at):
         assert made(joint, start + np.array([0.0, 0.5, 4e-4]), **size, capacity=1e3)  # within 1e-3 of 0.5 m
         with pytest.raises(lb.ModelError, match=r"not on the joint, 0\.01 m off it"):
             made(joint, start + np.array(at), **size, capacity=1e3)
+
+
+def test_a_tie_across_slip_that_may_turn_is_locked():
+    """A plate of weight W on a slope, pushed along its contours, with a tie of force N normal to it.
+
+    It slides by the resultant of push and weight: (a W)^2 + (W sin)^2 = mu^2 (W cos + N)^2, for any N.
+    """
+    mu, angle = 0.6, np.arctan(0.25)
+    sine, cosine = np.sin(angle), np.cos(angle)
+    R = np.array([(cosine, 0.0, sine), (0.0, 1.0, 0.0), (-sine, 0.0, cosine)])
+    slope = lb.Block.box("slope", (4, 1, 0.2), (0, 0, -0.1)).moved(R, (0, 0, 0))
+    plate = lb.Block.box("plate", (1, 1, 0.3), (0, 0, 0.15), 20e3).moved(R, (0, 0, 0))
+    found = lb.find_interfaces([slope, plate], lb.OrdunaLourenco(mu))
+    push = lb.mass_proportional((0, 1, 0))
+    model = lb.Model([slope, plate], ["slope"], found, lb.self_weight(), push)
+    ends = R @ (0, 0, -0.15), R @ (0, 0, 0.3)
+    held = reinforced(model, tie("slope", ends[0], "plate", ends[1], area=1e-3, strength=2e7))
+    answers = lb.load_factor_range(held, paths=2, mechanisms=3).answers
+    forces = [one.solution.stress_resultants[-1, 2] for one in answers]
+    assert max(forces) > 5e3
+    for force, one in zip(forces, answers, strict=True):
+        expected = (mu * (cosine + force / 6e3)) ** 2 - sine**2
+        assert one.load_factor == pytest.approx(np.sqrt(expected), rel=1e-6)
+        assert any("is locked in tie" in said for said in one.solution.remarks) == (force > 1.0)
