@@ -127,3 +127,22 @@ def test_nothing_falls_where_no_loads_act():
     problem = model_of(stones(0), ["ground"], lb.PointContact(0.6)).problem
     with np.errstate(all="raise"):
         assert falling(Flow(problem), np.zeros_like(problem.dead)) is None
+
+
+@pytest.mark.parametrize(
+    ("load", "most"), [((1e4, 0.0, -2e4), np.inf), ((1e4, 0.0, 0.0), 0.0)], ids=["down, too", "along"]
+)
+def test_the_lower_end_of_what_a_lintel_without_weight_is_pushed_along_is_zero(load, most):
+    """Nothing but friction balances a push along, and none is there without a normal force."""
+    stones = [
+        lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
+        lb.Block.box("left", (0.5, 1, 2), (-1, 0, 1), 20e3),
+        lb.Block.box("right", (0.5, 1, 2), (1, 0, 1), 20e3),
+        lb.Block.box("lintel", (2.5, 1, 0.4), (0, 0, 2.2), 0.0),
+    ]
+    found = lb.find_interfaces(stones, lb.OrdunaLourenco(0.6))
+    push = lb.loads.force("lintel", load, (0.0, 0.0, 2.4))
+    answer = lb.nonassociated(lb.Model(stones, ["ground"], found, lb.self_weight(), push))
+    assert answer.frictionless == 0.0
+    assert not answer.unclaimed
+    assert 0.0 <= answer.load_factor <= most

@@ -22,6 +22,7 @@ from limitblocks.problem import Cones, LimitProblem
 FALLS = "without friction the dead loads do not stand, and nothing is known below"
 UNSOLVED = "the load factor without friction was not to be had"
 TIGHT = {"tol_infeas_abs": 1e-10, "tol_infeas_rel": 1e-10}  # of proofs that nothing meets a program
+ROUNDING = 1e-12  # of the dead loads: a live load below it is none
 CERTIFIED = 1e-7  # largest violation of a mechanism of the dead loads, over their power, that proves a fall
 
 
@@ -53,6 +54,8 @@ def _best(p: LimitProblem, most: float | None) -> tuple[float, str]:
     if _nothing_meets(program, np.array(found.z)):
         return np.nan, FALLS
     load_factor, x = found.x[0], np.zeros(p.C.shape[0])
+    if abs(load_factor) * np.linalg.norm(p.live) <= ROUNDING * np.linalg.norm(p.dead):
+        load_factor = 0.0  # a block without weight has nothing else to measure what it does not balance by
     x[kept] = found.x[1:]
     good = Residuals(static_residuals(p, load_factor, x)).worst.value <= TOLERANCE
     return (load_factor, "") if good else (np.nan, UNSOLVED)
