@@ -169,3 +169,20 @@ def test_blocks_that_float_name_what_was_left_out():
             LIVE,
             left_out=["base"],
         )
+
+
+def test_a_block_without_words_has_none_of_the_block_before_it_in_obj(tmp_path):
+    """`g` and `usemtl` last until others are said: what stands on the base was of its layer, a support."""
+    size = (1.0, 1.0, 1.0)
+    stack = [lb.Block.box(name, size, (0.0, 0.0, k + 0.5)) for k, name in enumerate(("base", "a", "b"))]
+    words = ({"layer": "BASE", "material": "rock", "groups": ["pier"]}, {}, {"layer": "TOP"})
+    labelled = [block.labelled(**given) for block, given in zip(stack, words, strict=True)]
+    path = lb.files.write_blocks(labelled, tmp_path / "a.obj")
+    found = lb.files.read_blocks(path, unit_weight=2e4)
+    assert [(block.layer, block.material, block.groups) for block in found.blocks] == [
+        ("BASE", "rock", ("pier",)), ("", "", ()), ("TOP", "", ())
+    ]  # fmt: skip
+    model = lb.read(path, joint=JOINT, supports="layer:BASE", unit_weight=2e4, live=LIVE)
+    assert [block.name for block in model.free_blocks] == ["a", "b"]
+    # both cubes turn about the edge of the base at 1/2 over 1; one alone slides at .6 before it turns
+    assert lb.bounds(model).upper == pytest.approx(0.5, abs=1e-6)
