@@ -7,7 +7,7 @@ from typing import Any
 
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.io.formats.dxf.part import Part
-from limitblocks.io.shells import solids, soup
+from limitblocks.io.shells import soup, worded
 from limitblocks.io.solid import Polygons, Solid
 
 #: MESHSMOOTH smooths what it makes, unless told otherwise.
@@ -77,13 +77,16 @@ def _faces(body: Any) -> Iterator[Any]:
 
 
 def from_3d_faces(parts: Iterable[Part]) -> list[Solid]:
-    """Return the solids of single 3D faces, those of one layer and block reference together."""
+    """Return the solids of single 3D faces, those of one layer and block reference together.
+
+    Groups, colour and material of a solid are those of most of its faces.
+    """
     groups: dict[tuple[str, int], list[Part]] = {}
     for part in parts:
         groups.setdefault((part.layer, part.reference), []).append(part)
     bodies = []
     for group in groups.values():
         points, faces = soup([part.placed(part.entity.wcs_vertices()) for part in group])
-        found = solids(group[0].name, group[0].layer, points, faces)
-        bodies += [solid._replace(**group[0].words) for solid in found]
+        words = [part.words | {"layer": part.layer} for part in group]
+        bodies += worded(group[0].name, points, faces, range(len(group)), words)
     return bodies

@@ -1,0 +1,38 @@
+"""Groups, colours and thicknesses of what is drawn in pieces: 3D faces and outlines."""
+
+import ezdxf
+import pytest
+from dxf_files import JOINT
+from ezdxf.render.forms import cube
+
+import limitblocks as lb
+from limitblocks.joints import Material, Materials
+
+LIVE = lb.mass_proportional((1.0, 0.0, 0.0))
+
+
+def test_3d_faces_have_the_words_of_the_solid_they_close(tmp_path):
+    """Three cubes of 3D faces on one layer: their groups choose them, of which one is the support."""
+    drawing = ezdxf.new(units=6)
+    space = drawing.modelspace()
+    for k, name in enumerate(("base", "low", "top")):
+        shape = cube()
+        shape.translate(0, 0, k + 0.5)
+        words = {"layer": "STONES", "true_color": 0x100000 * (k + 1)}
+        faces = [
+            space.add_3dface([shape.vertices[v] for v in face], dxfattribs=words) for face in shape.faces
+        ]
+        with drawing.groups.new(name).edit_data() as group:
+            group.extend(faces)
+    drawing.saveas(tmp_path / "a.dxf")
+    found = lb.files.read_blocks(tmp_path / "a.dxf").blocks
+    assert [block.groups for block in found] == [("base",), ("low",), ("top",)]
+    assert [block.colour for block in found] == ["#100000", "#200000", "#300000"]
+    stone = {"low": 20e3, "top": 30e3}
+    table = {name: Material(weight, JOINT, blocks=[f"group:{name}"]) for name, weight in stone.items()}
+    table["ground"] = Material(blocks=["group:base"])
+    made = {"materials": Materials(table), "supports": "group:base"}
+    model = lb.read(tmp_path / "a.dxf", **made, live=LIVE)
+    assert [block.weight for block in model.free_blocks] == pytest.approx([20e3, 30e3])
+    # both turn about the edge of the base: 50 kN at 1/2, against 20 kN at 1/2 and 30 kN at 3/2
+    assert lb.bounds(model).upper == pytest.approx(25.0 / 55.0, abs=1e-6)
