@@ -36,3 +36,24 @@ def test_3d_faces_have_the_words_of_the_solid_they_close(tmp_path):
     assert [block.weight for block in model.free_blocks] == pytest.approx([20e3, 30e3])
     # both turn about the edge of the base: 50 kN at 1/2, against 20 kN at 1/2 and 30 kN at 3/2
     assert lb.bounds(model).upper == pytest.approx(25.0 / 55.0, abs=1e-6)
+
+
+def test_outlines_of_an_elevation_keep_their_groups_and_colours(tmp_path):
+    """Two stones of 800 x 300 mm on a base, chosen by group; the mass of one is twice that of the other."""
+    drawing = ezdxf.new(units=4)
+    for k, name in enumerate(("base", "low", "top")):
+        corners = [(0, 300 * k), (800, 300 * k), (800, 300 * k + 300), (0, 300 * k + 300)]
+        line = drawing.modelspace().add_lwpolyline(corners, close=True, dxfattribs={"color": k + 1})
+        with drawing.groups.new(name).edit_data() as group:
+            group.append(line)
+    drawing.saveas(tmp_path / "a.dxf")
+    found = lb.files.read_drawing(tmp_path / "a.dxf", thickness=0.5)
+    assert [block.groups for block in found.blocks] == [("base",), ("low",), ("top",)]
+    assert [block.colour for block in found.blocks] == ["#ff0000", "#ffff00", "#00ff00"]
+    assert lb.files.select(found.blocks, "group:base") == (found.blocks[0].name,)
+    table = Materials(
+        {name: Material(weight, JOINT, [f"group:{name}"]) for name, weight in (("low", 1e4), ("top", 2e4))}
+        | {"ground": Material(blocks=["group:base"])}
+    )
+    weights = [block.weight for block in table.on(found.blocks)[0][1:]]
+    assert weights == pytest.approx([0.8 * 0.3 * 0.5 * 1e4, 0.8 * 0.3 * 0.5 * 2e4])

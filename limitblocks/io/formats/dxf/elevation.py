@@ -147,7 +147,7 @@ def _contents(drawing: Any, layers: Sequence[str] | None) -> Contents:
         )
     names = _labelled(outlines, labels)
     solids = [
-        Solid(name, outline.part.layer, *prism(outline.corners, -0.5, 0.5, 1))
+        Solid(name, outline.part.layer, *prism(outline.corners, -0.5, 0.5, 1), **outline.part.words)
         for name, outline in zip(names, outlines, strict=True)
     ]
     gone = (*dropped, *dxf.hidden_of(left_out))
