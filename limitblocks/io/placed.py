@@ -25,7 +25,8 @@ class Contents(NamedTuple):
     """What a reader finds in a file: solids, metres per unit and the axis up where it says so, notes.
 
     `wrong` says of parts of the file, by name, why they are no solids; `left_out` names others that may be
-    meant as blocks, such as what is hidden.
+    meant as blocks, such as what is hidden. `drawn` is what the unit is guessed by where the solids have
+    dimensions that are not in it.
     """
 
     solids: Sequence[Solid]
@@ -34,6 +35,7 @@ class Contents(NamedTuple):
     up: str | None = None
     wrong: Mapping[str, Sequence[str]] = MappingProxyType({})
     left_out: Sequence[str] = ()
+    drawn: Sequence[Solid] = ()
 
 
 class Frame(NamedTuple):
@@ -70,9 +72,10 @@ def frame(contents: Contents, units: str | None, up: str | None) -> Frame:
     per_unit, axis = metres(units, contents.metres), up or contents.up or "z"
     warnings = []
     upright(axis)
-    points = [np.asarray(solid.vertices, dtype=np.float64).reshape(-1, 3) for solid in contents.solids]
+    solids = contents.drawn or contents.solids
+    points = [np.asarray(solid.vertices, dtype=np.float64).reshape(-1, 3) for solid in solids]
     sound = [k for k, one in enumerate(points) if len(one) and np.abs(one).max() < 1e30]
-    words = [(contents.solids[k].name, contents.solids[k].layer) for k in sound]
+    words = [(solids[k].name, solids[k].layer) for k in sound]
     boxes = Boxes.of([points[k] for k in sound], words) if sound else None
     unit = guesses.unit(boxes) if boxes and units is None and contents.metres is None else None
     if unit:

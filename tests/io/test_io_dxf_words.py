@@ -57,3 +57,29 @@ def test_outlines_of_an_elevation_keep_their_groups_and_colours(tmp_path):
     )
     weights = [block.weight for block in table.on(found.blocks)[0][1:]]
     assert weights == pytest.approx([0.8 * 0.3 * 0.5 * 1e4, 0.8 * 0.3 * 0.5 * 2e4])
+
+
+@pytest.mark.parametrize("thickness", [0.4, 4.0])
+def test_a_thickness_does_not_change_the_unit_that_is_guessed(tmp_path, thickness):
+    """20 outlines of 20 x 20 in a drawing without a unit are taken in cm; the thickness is in m already."""
+    drawing = ezdxf.new(units=0)
+    for k in range(20):
+        corners = [(0, 20 * k), (20, 20 * k), (20, 20 * k + 20), (0, 20 * k + 20)]
+        drawing.modelspace().add_lwpolyline(corners, close=True)
+    drawing.saveas(tmp_path / "a.dxf")
+    found = lb.files.read_drawing(tmp_path / "a.dxf", thickness=thickness)
+    assert [block.volume for block in found.blocks] == pytest.approx([0.2 * 0.2 * thickness] * 20)
+    assert ["units='cm'" in said for said in found.guesses] == [True]
+    seen = lb.files.look(tmp_path / "a.dxf", thickness=thickness)
+    assert seen.size == pytest.approx((0.2, thickness, 4.0))
+    assert seen.units.startswith("cm, guessed")
+
+
+def test_a_vault_in_elevation_is_not_asked_about_its_unit(tmp_path):
+    """Stones of .5 m in a drawing that states m, 12 m deep, were said to be 12 m long."""
+    drawing = ezdxf.new(units=6)
+    drawing.modelspace().add_lwpolyline([(0, 0), (0.5, 0), (0.5, 0.4), (0, 0.4)], close=True)
+    drawing.saveas(tmp_path / "a.dxf")
+    found = lb.files.read_drawing(tmp_path / "a.dxf", thickness=12.0)
+    assert found.blocks[0].volume == pytest.approx(0.5 * 0.4 * 12.0)
+    assert found.guesses == ()

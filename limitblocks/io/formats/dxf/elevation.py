@@ -79,7 +79,8 @@ def elevation(
     with foreign("DXF"):
         found = _contents(drawing, [layers] if isinstance(layers, str) else layers)
     notes = [*dxf.unit_notes(drawing), *found.notes]
-    contents = found._replace(metres=dxf.metres_per_unit(drawing), notes=notes, up="z")
+    stated = dxf.metres_per_unit(drawing)
+    contents = found._replace(metres=stated, notes=notes, up="z", drawn=found.solids)
     metres = frame(contents, units, "z").metres
     lengths = [metres * _length(solid) for solid in found.solids]
     asked = _of_thickness(thickness, float(np.median(lengths))) if lengths else []
