@@ -161,3 +161,32 @@ def test_transformations_as_compas_makes_them(tmp_path):
     mesh = Mesh.from_shape(CUBES[0]).transformed(matrix)
     assert block.centroid == pytest.approx(list(mesh.centroid()), abs=1e-9)
     assert mesh.volume() == pytest.approx(block.volume, rel=1e-9)
+
+
+def without_guids(value):
+    """A document as compas.json_dump(..., minimal=True) writes it."""
+    if isinstance(value, list):
+        return [without_guids(part) for part in value]
+    if not isinstance(value, dict):
+        return value
+    left = ("guid", "name") if "dtype" in value else ()
+    return {key: without_guids(part) for key, part in value.items() if key not in left}
+
+
+@pytest.mark.parametrize("make", [model_document, old_model_document])
+def test_models_without_guids_have_all_their_elements(tmp_path, make):
+    whole = lb.files.read_blocks(written(tmp_path / "a.json", make()))
+    found = lb.files.read_blocks(written(tmp_path / "b.json", without_guids(make())))
+    assert [block.volume for block in found.blocks] == pytest.approx([1.0, 1.0], rel=1e-12)
+    for block, same in zip(found.blocks, whole.blocks, strict=True):
+        assert block.centroid == pytest.approx(same.centroid, abs=1e-12)
+    assert found.supports == ("block 0",)
+
+
+def test_groups_of_elements_that_no_guid_tells_are_refused(tmp_path):
+    document = without_guids(model_document())
+    document["data"]["elements"] = list(document["data"]["elements"].values())
+    assert "save the model without minimal=True" in fault(written(tmp_path / "a.json", document))
+    document = old_model_document()
+    document["data"]["elements"][1]["guid"] = "e0"
+    assert "two elements have the guid 'e0'" in fault(written(tmp_path / "b.json", document))

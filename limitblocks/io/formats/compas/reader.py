@@ -182,12 +182,8 @@ def _network(data: Mapping[str, Any], place: Array) -> Iterator[Solid]:
 
 def _model(data: Mapping[str, Any], place: Array, left_out: Counter[str]) -> Iterator[Solid]:
     """Elements of a model, each placed by its own, its parents' and the model's transformations."""
-    given = data["elements"]
-    elements = {}
-    for element in given.values() if isinstance(given, dict) else given:
-        item = thing(element)
-        elements[item.guid] = item
     parents = dict(_parents(data.get("tree") or {}))
+    elements = _elements(data["elements"], parents)
     materials = data.get("materials")
     materials = materials if isinstance(materials, dict) else {}
     top = place @ transformation(data.get("transformation"))
@@ -204,6 +200,28 @@ def _model(data: Mapping[str, Any], place: Array, left_out: Counter[str]) -> Ite
             left_out[f"features of block {name!r}"] += len(item.data["features"])
         solid = _solid(shape[0], top @ where, name, bool(item.data.get("is_support")), material=material)
         yield solid._replace(groups=_groups(elements, parents, guid))
+
+
+def _elements(given: Any, parents: Mapping[str, str]) -> dict[str, Thing]:
+    """Return the elements of a model by guid; by their key or number where a file is without guids.
+
+    Raises
+    ------
+    ModelError
+        Two have one guid, or none has one and the tree has groups.
+    """
+    pairs = given.items() if isinstance(given, dict) else enumerate(given)
+    elements: dict[str, Thing] = {}
+    for key, element in pairs:
+        item = thing(element)
+        guid = item.guid or str(key)
+        if guid in elements:
+            raise ModelError(f"two elements have the guid {guid!r}")
+        if not item.guid and not isinstance(given, dict) and any(parents.values()):
+            raise ModelError("elements have no guid, so the groups they are in are not known; "
+                             "save the model without minimal=True")  # fmt: skip
+        elements[guid] = item
+    return elements
 
 
 def _groups(elements: Mapping[str, Thing], parents: Mapping[str, str], guid: str) -> tuple[str, ...]:
