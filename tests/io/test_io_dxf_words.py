@@ -83,3 +83,24 @@ def test_a_vault_in_elevation_is_not_asked_about_its_unit(tmp_path):
     found = lb.files.read_drawing(tmp_path / "a.dxf", thickness=12.0)
     assert found.blocks[0].volume == pytest.approx(0.5 * 0.4 * 12.0)
     assert found.guesses == ()
+
+
+@pytest.mark.parametrize("mirrored", [1, -1])
+def test_a_cavity_of_3d_faces_stays_one_in_a_mirror_image(tmp_path, mirrored):
+    """A cube of 2 m with a cavity of 1 m between two others; its faces pointed inward in the mirror image."""
+    drawing = ezdxf.new(units=6)
+    stones = drawing.blocks.new("stones")
+    for size, z, inward in ((4, -3, False), (2, 0, False), (1, 0, True), (1, 1.5, False)):
+        shape = cube()
+        shape.scale_uniform(size)
+        shape.translate(0, 0, z)
+        for face in shape.faces:
+            corners = [shape.vertices[v] for v in face]
+            stones.add_3dface(corners[::-1] if inward else corners)
+    drawing.modelspace().add_blockref("stones", (0, 0, 0), dxfattribs={"xscale": mirrored})
+    drawing.saveas(tmp_path / "a.dxf")
+    found = lb.files.read_blocks(tmp_path / "a.dxf").blocks
+    assert [block.volume for block in found] == pytest.approx([64.0, 8.0 - 1.0, 1.0])
+    model = lb.read(tmp_path / "a.dxf", joint=JOINT, supports="z<-0.9", unit_weight=2e4, live=LIVE)
+    # the upper turns about its own edge at 1/2 over 1/2, both slide at .6, before they turn at 160 over 190
+    assert lb.bounds(model).upper == pytest.approx(0.6, abs=1e-6)

@@ -8,7 +8,7 @@ from typing import Any
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.io.formats.dxf.part import Part
 from limitblocks.io.shells import soup, worded
-from limitblocks.io.solid import Polygons, Solid
+from limitblocks.io.solid import Polygons, Solid, turned
 
 #: MESHSMOOTH smooths what it makes, unless told otherwise.
 _TO_MESH = "convert it to a mesh (MESHSMOOTH, then smoothness none (0), or EXPLODE a copy to faces)"
@@ -88,5 +88,6 @@ def from_3d_faces(parts: Iterable[Part]) -> list[Solid]:
     for group in groups.values():
         points, faces = soup([part.placed(part.entity.wcs_vertices()) for part in group])
         words = [part.words | {"layer": part.layer} for part in group]
-        bodies += worded(group[0].name, points, faces, range(len(group)), words)
+        loops = turned(faces, group[0].matrix)
+        bodies += worded(group[0].name, points, loops, range(len(group)), words)
     return bodies
