@@ -104,3 +104,23 @@ def test_a_cavity_of_3d_faces_stays_one_in_a_mirror_image(tmp_path, mirrored):
     model = lb.read(tmp_path / "a.dxf", joint=JOINT, supports="z<-0.9", unit_weight=2e4, live=LIVE)
     # the upper turns about its own edge at 1/2 over 1/2, both slide at .6, before they turn at 160 over 190
     assert lb.bounds(model).upper == pytest.approx(0.6, abs=1e-6)
+
+
+def test_a_reference_on_a_layer_that_is_off_hides_what_takes_on_its_layer(tmp_path):
+    """As CAD programs have it; one on a frozen layer hides all it holds."""
+    drawing = ezdxf.new(units=6)
+    drawing.layers.add("stone")
+    drawing.layers.add("off").off()
+    drawing.layers.add("frozen").freeze()
+    pair = drawing.blocks.new("pair")
+    for k, layer in enumerate(("stone", "0")):
+        shape = cube()
+        shape.translate(0, 0, k + 0.5)
+        shape.render_mesh(pair, {"layer": layer})
+    for k, layer in enumerate(("stone", "off", "frozen")):
+        drawing.modelspace().add_blockref("pair", (5 * k, 0, 0), {"layer": layer})
+    drawing.saveas(tmp_path / "a.dxf")
+    found = lb.files.read_blocks(tmp_path / "a.dxf")
+    places = [block.centroid.round(9).tolist() for block in found.blocks]
+    assert places == [[0.0, 0.0, 0.5], [0.0, 0.0, 1.5], [5.0, 0.0, 0.5]]
+    assert found.left_out == ("2 hidden entities",)

@@ -149,7 +149,8 @@ class _Expansion:
         layers = {decoded(one.dxf.name): one for one in drawing.layers}
         #: capital and small letters are the same in DXF: a layer is spelled as in the table of layers
         self.spelled = {name.lower(): name for name in layers}
-        self.hidden = {name for name, one in layers.items() if one.is_off() or one.is_frozen()}
+        self.frozen = {name for name, one in layers.items() if one.is_frozen()}
+        self.hidden = self.frozen | {name for name, one in layers.items() if one.is_off()}
         self.colours = {name: colours.of_layer(one) for name, one in layers.items()}
         self.groups, self.left_out = _groups(drawing), left_out
         self.met = self.references = 0
@@ -163,7 +164,9 @@ class _Expansion:
             # what is on layer 0 of a block takes on the layer of the reference
             own = above.layer if above.layer and entity.dxf.layer == "0" else decoded(entity.dxf.layer)
             own = self.spelled.setdefault(own.lower(), own)
-            if own in self.hidden or entity.dxf.get("invisible", 0):
+            # a reference on a layer that is off shows what of it is on other layers, on a frozen one nothing
+            hidden = self.frozen if entity.dxftype() == "INSERT" else self.hidden
+            if own in hidden or entity.dxf.get("invisible", 0):
                 self.left_out["hidden entities"] += 1
                 continue
             groups = tuple(dict.fromkeys((*above.groups, *self.groups.get(entity.dxf.handle, ()))))
