@@ -156,7 +156,9 @@ def blocks_of(contents: Contents, where: Frame, twisted: Twisted | None = None) 
     named = dict(zip(names, contents.solids, strict=True))
     found = made(named, where.metres * upright(where.up), twisted)
     supports = tuple(block.name for block in found.blocks if _is_support(named[block.name]))
-    wrong = {**contents.wrong, **found.wrong}
+    wrong = dict(contents.wrong)
+    for name, lines in found.wrong.items():
+        wrong[name] = [*wrong.get(name, ()), *lines]
     return Made(found.blocks, (*renamed, *found.notes), wrong, supports, found.twisted)
 
 

@@ -124,3 +124,26 @@ def test_a_reference_on_a_layer_that_is_off_hides_what_takes_on_its_layer(tmp_pa
     places = [block.centroid.round(9).tolist() for block in found.blocks]
     assert places == [[0.0, 0.0, 0.5], [0.0, 0.0, 1.5], [5.0, 0.0, 0.5]]
     assert found.left_out == ("2 hidden entities",)
+
+
+def test_every_bad_solid_of_a_reference_is_told(tmp_path):
+    """Two smoothed meshes, and an open one beside a sound one, all of one name."""
+    drawing = ezdxf.new(units=6)
+    stones = drawing.blocks.new("stones")
+    meshes = []
+    for k in range(4):
+        shape = cube()
+        shape.translate(0, 0, k + 0.5)
+        meshes.append(shape.render_mesh(stones))
+    for mesh in meshes[:2]:
+        mesh.dxf.subdivision_levels = 1
+    with meshes[2].edit_data() as data:
+        data.faces = [list(face) for face in list(data.faces)[:-1]]
+    drawing.modelspace().add_blockref("stones", (0, 0, 0))
+    drawing.saveas(tmp_path / "a.dxf")
+    with pytest.raises(lb.ModelError) as error:
+        lb.files.read_blocks(tmp_path / "a.dxf")
+    found = lb.files.read_blocks(tmp_path / "a.dxf", skip_bad=True)
+    assert [block.centroid[2] for block in found.blocks] == pytest.approx([3.5])
+    for said in (error.value.problems, found.notes):
+        assert [sum(word in line for line in said) for word in ("it is smoothed", "open")] == [2, 1]

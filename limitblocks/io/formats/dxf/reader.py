@@ -37,7 +37,7 @@ def contents(path: Path) -> Contents:
     left_out: Counter[str] = Counter()
     faces: list[Part] = []
     solids: list[Solid] = []
-    wrong: dict[str, tuple[str, ...]] = {}
+    wrong: dict[str, list[str]] = {}
     with foreign("DXF"):
         for part in parts(drawing, left_out):
             if part.kind == "3DFACE":
@@ -46,7 +46,7 @@ def contents(path: Path) -> Contents:
             try:
                 shape = bodies.polygons(part)
             except ModelError as error:
-                wrong[part.name] = error.problems
+                wrong.setdefault(part.name, []).extend(error.problems)
                 continue
             if shape is None:
                 left_out[part.kind] += 1
