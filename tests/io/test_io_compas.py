@@ -190,3 +190,14 @@ def test_groups_of_elements_that_no_guid_tells_are_refused(tmp_path):
     document = old_model_document()
     document["data"]["elements"][1]["guid"] = "e0"
     assert "two elements have the guid 'e0'" in fault(written(tmp_path / "b.json", document))
+
+
+@pytest.mark.parametrize("make", [assembly_document, model_document, network_document])
+def test_all_blocks_of_what_stands_under_a_key_that_says_supports_are_supports(tmp_path, make):
+    """An assembly as well as a mesh: the second block of it, which it does not mark, was free."""
+    stone = mesh_data(1, name="stone")
+    found = lb.files.read_blocks(written(tmp_path / "a.json", {"supports": make(), "stones": [stone]}))
+    assert len(found.blocks) == 3
+    assert [block.name for block in found.blocks if block.name not in found.supports] == ["stone"]
+    given = "LIMESTONE" if make is model_document else "support"
+    assert list(found.layers.values()) == [given, given, "block"]

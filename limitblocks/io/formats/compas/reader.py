@@ -100,7 +100,7 @@ def _walk(value: Any, place: Array, key: str, support: bool, left_out: Counter[s
     if isinstance(data, dict) and (solid := polygons(data)) is not None:
         yield _solid(solid, place, name or _numbered(key), support)
     elif isinstance(data, dict) and (within := _known(data, place, left_out)) is not None:
-        yield from within
+        yield from map(_as_support, within) if support else within
     elif isinstance(data, dict) and kind and not _HOLDERS & data.keys():
         left_out[kind] += 1
     else:
@@ -123,6 +123,11 @@ def _parts(data: Any, key: str, holders_only: bool) -> Iterator[tuple[str, Any]]
         yield from ((f"{key} {k}".strip(), part) for k, part in enumerate(data))
     elif isinstance(data, dict):
         yield from ((k, part) for k, part in data.items() if k in _HOLDERS or not holders_only)
+
+
+def _as_support(solid: Solid) -> Solid:
+    """Return a solid of what stands under a key that says support."""
+    return solid._replace(support=True, layer="support" if solid.layer == "block" else solid.layer)
 
 
 def _numbered(key: str) -> str:
