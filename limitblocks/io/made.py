@@ -16,7 +16,7 @@ from limitblocks.geometry.block import WORDS
 from limitblocks.geometry.mend import TwistedFaces, mended
 from limitblocks.geometry.twisted import Twisted, rounding
 from limitblocks.io.colours import known
-from limitblocks.io.solid import Solid
+from limitblocks.io.solid import Solid, corners
 from limitblocks.shown import many
 
 #: Distance of a corner from its plane over the accuracy that faces which touch show: as for healing.
@@ -84,7 +84,7 @@ def _accurate(
     taken = {}
     for name, (block, said) in triangles.items():
         # a corner rounded by half a step in each coordinate
-        step = rounding(np.asarray(named[name].vertices, dtype=np.float64))
+        step = rounding(corners(named[name]))
         step *= float(np.linalg.norm(placement[0]))
         if bent[name] <= max(_TWIST * shown, step):
             is_good = f"as the file is good to about {millimetres(max(shown, step / 2.0))} there"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from itertools import chain
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -13,7 +12,7 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io import guesses
 from limitblocks.io.guesses import Boxes
-from limitblocks.io.solid import Solid
+from limitblocks.io.solid import Solid, corners
 
 #: Metres per unit of length.
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
@@ -74,7 +73,7 @@ def frame(contents: Contents, units: str | None, up: str | None) -> Frame:
     warnings = []
     upright(axis)
     solids = contents.drawn or contents.solids
-    points = [_corners(solid) for solid in solids]
+    points = [corners(solid) for solid in solids]
     sound = [k for k, one in enumerate(points) if len(one) and np.abs(one).max() < 1e30]
     words = [(solids[k].name, solids[k].layer) for k in sound]
     boxes = Boxes.of([points[k] for k in sound], words) if sound else None
@@ -99,16 +98,6 @@ def frame(contents: Contents, units: str | None, up: str | None) -> Frame:
         other = "z" if axis == "y" else "y"
         warnings.append(f"seems to lie on its side: {why}; if so, say up={other!r} (--up {other})")
     return Frame(per_unit, axis, tuple(warnings))
-
-
-def _corners(solid: Solid) -> Array:
-    """Return the vertices (n, 3) that faces of a solid have; all of them where a face is not sound."""
-    points = np.asarray(solid.vertices, dtype=np.float64).reshape(-1, 3)
-    try:
-        used = np.unique(np.fromiter(chain.from_iterable(solid.faces), np.int64))
-    except (TypeError, ValueError, OverflowError):  # for the block to say
-        return points
-    return points[used] if len(used) and 0 <= used[0] <= used[-1] < len(points) else points
 
 
 def upright(up: str) -> Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,6 +27,16 @@ class Solid(NamedTuple):
     material: str = ""
     groups: tuple[str, ...] = ()
     colour: str = ""
+
+
+def corners(solid: Solid) -> Array:
+    """Return the vertices (n, 3) that faces of a solid have; all of them where a face is not sound."""
+    points = np.asarray(solid.vertices, dtype=np.float64).reshape(-1, 3)
+    try:
+        used = np.unique(np.fromiter(chain.from_iterable(solid.faces), np.int64))
+    except (TypeError, ValueError, OverflowError):  # for the block to say
+        return points
+    return points[used] if len(used) and 0 <= used[0] <= used[-1] < len(points) else points
 
 
 def placed(points: Any, matrix: Array) -> Array:

@@ -45,3 +45,13 @@ def test_a_spare_vertex_at_the_origin_does_not_change_the_unit(tmp_path, suffix,
     assert found.guesses == ()
     assert [stone.weight for stone in found.blocks] == pytest.approx([2e4], rel=1e-6)
     assert found.blocks[0].centroid == pytest.approx(PLACE, rel=1e-9)
+
+
+@pytest.mark.parametrize("spare", [False, True])
+def test_a_spare_vertex_does_not_make_coordinates_coarse(tmp_path, spare):
+    """A corner .1 m out of the top of 1 x 1 m, in a file of one decimal: no rounding, as that is a tenth."""
+    block = lb.Block.box("stone", (1.0, 1.0, 1.0), (0.5, 0.5, 0.5))
+    corners = [(x, y, z + 0.1 * (x + y + z == 3.0)) for x, y, z in block.vertices.tolist()]
+    compas(tmp_path / "a.json", [*corners, *([(0.0, 0.0, 200.0)] * spare)], block.faces)
+    with pytest.raises(lb.ModelError, match=r"twisted faces: 1 of 6, corners up to 0\.0249 m"):
+        lb.files.read_blocks(tmp_path / "a.json")
