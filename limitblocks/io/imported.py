@@ -163,7 +163,8 @@ def blocks_of(contents: Contents, where: Frame, twisted: Twisted | None = None) 
 
 
 def _is_support(solid: Solid) -> bool:
-    on_layer = solid.layer.strip().lower() in SUPPORT_LAYERS
+    name = solid.layer.rpartition("::")[2]  # of a layer within others in Rhino
+    on_layer = name.strip().lower() in SUPPORT_LAYERS
     return on_layer if solid.support is None else solid.support
 
 

@@ -264,3 +264,16 @@ def test_without_rhino3dm(tmp_path, monkeypatch):
         lb.files.write_blocks(STRUCTURES["wall"], tmp_path / "a.3dm")
     with pytest.raises(lb.errors.MissingDependency, match="pip install 'rhino3dm>="):
         lb.files.read_blocks(tmp_path / "a.3dm")
+
+
+def test_layers_named_support_within_other_layers_are_of_supports(tmp_path):
+    """A beam of 3 m on two stones, of which one is on a layer within another; it slides at its friction."""
+    stones = [
+        lb.Block.box("left", (1.0, 1.0, 1.0), (0.0, 0.0, 0.5)).labelled(layer="Support"),
+        lb.Block.box("right", (1.0, 1.0, 1.0), (2.0, 0.0, 0.5)).labelled(layer="annex::support"),
+        lb.Block.box("beam", (3.0, 1.0, 0.5), (1.0, 0.0, 1.25)).labelled(layer="annex"),
+    ]
+    path = lb.files.write_blocks(stones, tmp_path / "a.3dm")
+    model = lb.read(path, joint=lb.OrdunaLourenco(0.6), unit_weight=2e4, live=lb.mass_proportional((1, 0, 0)))
+    assert model.supports == ("left", "right")
+    assert lb.bounds(model).upper == pytest.approx(0.6, abs=1e-6)
