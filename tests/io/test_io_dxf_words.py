@@ -1,5 +1,7 @@
 """Groups, colours and thicknesses of what is drawn in pieces: 3D faces and outlines."""
 
+from dataclasses import replace
+
 import ezdxf
 import pytest
 from dxf_files import JOINT
@@ -147,3 +149,18 @@ def test_every_bad_solid_of_a_reference_is_told(tmp_path):
     assert [block.centroid[2] for block in found.blocks] == pytest.approx([3.5])
     for said in (error.value.problems, found.notes):
         assert [sum(word in line for line in said) for word in ("it is smoothed", "open")] == [2, 1]
+
+
+def test_layers_and_groups_that_differ_by_capitals_stay_apart(tmp_path):
+    """DXF takes Granite and granite for one: the stones of both would have one unit weight."""
+    words = {"base": "Ground", "low": "Granite", "top": "granite", "side": "granite"}
+    places = {"base": (0, 0, 0.5), "low": (0, 0, 1.5), "top": (0, 0, 2.5), "side": (3, 0, 0.5)}
+    blocks = [
+        replace(lb.Block.box(name, (1, 1, 1), places[name], 20e3), layer=word, groups=(word,))
+        for name, word in words.items()
+    ]
+    model = lb.Model(blocks, ["base", "side"], lb.find_interfaces(blocks, JOINT), lb.self_weight(), LIVE)
+    lb.files.write_blocks(model, tmp_path / "a.dxf")
+    found = lb.files.read_blocks(tmp_path / "a.dxf").blocks
+    assert [block.layer for block in found] == ["Ground", "Granite", "granite 2", "granite 2"]
+    assert [block.groups for block in found] == [("Ground",), ("Granite",), ("granite 2",), ("granite 2",)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from typing import Any
 
 from limitblocks.geometry import Block
@@ -21,7 +21,9 @@ def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Contai
     """Return the drawing; the name of each block is kept beside its mesh, for the reader of this library."""
     drawing = package("ezdxf", "DXF").new("R2010", units=_METRES)
     drawing.appids.add(APPLICATION)
-    names = {block.name: _layer(layers.get(block.name, "")) for block in blocks}
+    layer_of = _distinct(layers.get(block.name, "") for block in blocks)
+    names = {block.name: layer_of[layers.get(block.name, "")] for block in blocks}
+    group_of = _distinct(name for block in blocks for name in block.groups)
     for k, layer in enumerate(dict.fromkeys(names.values())):
         if layer not in drawing.layers:
             drawing.layers.add(layer, color=_COLOURS[k % len(_COLOURS)])
@@ -37,13 +39,27 @@ def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Contai
             [(1000, " ".join(word.split())[:_LONGEST]) for word in (block.name, block.material) if word],
         )
         for name in block.groups:
-            groups.setdefault(_layer(name), []).append(mesh)
+            groups.setdefault(group_of[name], []).append(mesh)
     for name, meshes in groups.items():
         with drawing.groups.new(name).edit_data() as members:
             members.extend(meshes)
     stream = io.StringIO()
     drawing.write(stream)
     return bytes(drawing.encode(stream.getvalue()))
+
+
+def _distinct(names: Iterable[str]) -> dict[str, str]:
+    """Return what each name is in DXF, where capitals tell no two apart."""
+    made: dict[str, str] = {}
+    taken: set[str] = set()
+    for name in dict.fromkeys(names):
+        word, k = _layer(name), 1
+        while word.lower() in taken:
+            k += 1
+            word = f"{_layer(name)[: _LONGEST - 8]} {k}"
+        taken.add(word.lower())
+        made[name] = word
+    return made
 
 
 def _layer(name: str) -> str:
