@@ -14,15 +14,13 @@ from limitblocks.analysis.conic import Conic
 from limitblocks.analysis.direct import FIXED, solution
 from limitblocks.analysis.programs import DIRECT
 from limitblocks.arrays import Array, Indices
-from limitblocks.evidence.mechanism import sparse_columns
+from limitblocks.evidence.mechanism import APEX_DIRECTIONS, sparse_columns
 from limitblocks.problem import Cones, LimitProblem, State
 from limitblocks.problem.cones import rays
 
 YIELDING = 1e-6  # of the largest strain rate: less is no flow
 READY = 1e-5  # of the terms of the rows of an interface: one with less to spare yields, and may flow
 MOVES = 1e-4  # of the rows that begin to flow by 1 at most: less is no motion of the blocks
-FAR = 1e3  # of the rows that begin to flow by 1 at most: farther rates are rounding
-RAYS = 8  # in each plane, of the cones at whose apex the stresses are
 SINGULAR = 1e-8  # least eigenvalue over the diagonal, below which another mechanism exists
 ROUNDS = 8  # of the inverse power method
 REGULAR = 1e-13
@@ -83,7 +81,7 @@ class Yielding:
         linear = np.flatnonzero((yields & ~flows)[: cones.linear])
         parts: list[tuple[Indices, Array]] = [(linear[:, None], np.ones((len(linear), 1, 1)))]
         for group in cones.groups:
-            its, every = cones.member[group[:, 0]], rays(group.shape[1], RAYS)
+            its, every = cones.member[group[:, 0]], rays(group.shape[1], APEX_DIRECTIONS)
             on, at = group[yields[its] & ~apex[its]], group[yields[its] & apex[its]]
             along = np.concatenate([z[on[:, :1]], -z[on[:, 1:]]], axis=1)
             parts.append((on, along[:, None]))
@@ -129,16 +127,16 @@ class Yielding:
         C du = -D^T dy, live.du = 0, of which both programs find rates along a direction if there are any.
         """
         p, D, N = self.problem, self.flows, self.ready
-        live = sparse.csr_array(p.live[None])
+        live, n, k = sparse.csr_array(p.live[None]), p.C.shape[1], N.shape[0]
         blocks: list[list[Any]] = [[p.C, D.T, N.T], [live, None, None]]
-        A: sparse.coo_array = sparse.block_array(blocks)
-        n, size = p.C.shape[1], A.shape[1]
-        least, every = np.where(np.arange(size) < size - N.shape[0], -FAR, 0.0), sparse.eye_array(size)
-        rows = sparse.csc_array(sparse.vstack([A, every, -every]))
-        ends = np.concatenate([np.zeros(A.shape[0]), np.where(least < 0.0, FAR, 1.0), -least])
+        equal: sparse.coo_array = sparse.block_array(blocks)
+        size = equal.shape[1]
+        begins = sparse.eye_array(k, size, k=size - k)
+        rows = sparse.csc_array(sparse.vstack([equal, begins, -begins]))
+        ends = np.concatenate([np.zeros(equal.shape[0]), np.ones(k), np.zeros(k)])
         along = np.pad(np.random.default_rng(0).standard_normal(n), (0, size - n))
         for cost in (along, -along):
-            found = np.array(solution(Conic(cost, rows, ends, Cones(2 * size)), DIRECT.settings | FIXED).x)
+            found = np.array(solution(Conic(cost, rows, ends, Cones(2 * k)), DIRECT.settings | FIXED).x)
             if not cost @ found >= -MOVES:  # or not a number
                 return True
         return False

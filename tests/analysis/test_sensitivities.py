@@ -247,9 +247,10 @@ def test_a_kink_within_the_digits_of_a_drawing_is_one(joint, off):
     assert not found.unique
 
 
-def test_the_one_mechanism_of_a_large_facade_is_told_as_the_only_one():
+@pytest.mark.parametrize("joint", [lb.PointContact, lb.OrdunaLourenco])
+def test_the_one_mechanism_of_a_large_facade_is_told_as_the_only_one(joint):
     """Where forward and backward differences of the unit weights agree, to the second order of the step."""
-    model = structures.facade(lb.PointContact(0.6))
+    model = structures.facade(joint(0.6))
     found, shares, step = of(model), np.random.default_rng(0).standard_normal(len(model.blocks)), 1e-3
 
     def changed(by):
