@@ -329,3 +329,20 @@ def test_where_sliding_counts_alpha0_is_said_to_be_one_answer():
     assert said.remarks[0].startswith("alpha0 = 0.3388 is one answer, others may solve as well, up to")
     assert f"{associated:.4g} (associated)" in said.remarks[0]
     assert verification(pair, lb.bounds(pair), SITE, q=2.0).remarks[0].startswith("alpha0 is associated")
+
+
+def test_what_rounding_leaves_of_prestress_is_no_force():
+    """Ties that cross one another are all inner forces, whatever their pulls add up to."""
+    stones = [
+        lb.Block.box("ground", (8, 4, 0.4), (0, 0, -0.2)),
+        lb.Block.box("wall", (1, 1, 4), (0, 0, 2), 20e3),
+    ]
+    wall = model_of(stones, ["ground"], lb.PointContact(0.8))
+    ends = [((0.1 * k, 0.03 * k, 1.0 + k / 7), (0.3 / k, 0.1, -0.1 * k)) for k in (1, 2, 3)]
+    bars = [
+        tie("wall", head, "ground", foot, area=1e-3, strength=1e8, prestress=1e4 / k)
+        for k, (head, foot) in zip((3, 7, 9), ends, strict=True)
+    ]
+    model = reinforced(wall, *bars)
+    found = verification(model, lb.nonassociated(model), SITE, q=2.0)
+    assert not [one for one in found.remarks if "mass is not pushed" in one]
