@@ -18,7 +18,12 @@ if TYPE_CHECKING:
     from limitblocks.model import Model
     from limitblocks.practice import Floor, Spectrum, Verification
 
-Support = Annotated[str, typer.Option(help="Support that gives way.", show_default=False)]
+Support = Annotated[
+    list[str],
+    typer.Option(
+        help="Support that gives way; repeat it for several that do as one body.", show_default=False
+    ),
+]
 Direction = Annotated[Any, vector("--direction", names="X,Y,Z", help="Of its motion.")]
 ToCollapse = Annotated[
     bool, typer.Option("--until-collapse", help="Let it settle until the structure falls.")
@@ -83,7 +88,7 @@ def settle(
     animation: Animation = None,
     kept: Kept = NOTHING,
 ) -> None:
-    """Print the least reaction of a support that gives way, and how far the structure follows it."""
+    """Print the least reaction of supports that give way, and how far the structure follows it."""
     with clean_errors():
         solve = analyses.settlement_to_collapse if until_collapse else analyses.settlement
         way: Any = {"support": support, "direction": direction}

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from limitblocks.arrays import Array, real
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints.base import YieldRows, checked_stress, stress_words
 from limitblocks.problem import Mode
@@ -146,45 +146,52 @@ class Dowel:
 
 @dataclass(frozen=True)
 class Guide:
-    """A bilateral guide that lets block j move along s1 of its interface and nothing else.
+    """A bilateral guide that lets block j move along s1 of its interface, or not at all, and nothing else.
 
-    It carries V2, N, M1, M2 and T of either sign, no V1: each force up to strength x area, each moment up
-    to that times the root of the area. Where a solution uses its strength nowhere, it is one of a rigid
-    guide: the rows are slack.
+    It carries V2, N, M1, M2 and T of either sign, and V1 where it does not slide: each force up to
+    strength x area, each moment up to that times the root of the area. Where a solution uses its strength
+    nowhere, it is one of a rigid guide: the rows are slack.
 
     Parameters
     ----------
     strength : float
         Force per area, Pa, > 0; far above what acts.
+    slides : bool
+        Whether block j can move along s1; else both blocks are one body.
 
     Raises
     ------
     ModelError
-        If the strength is not finite and positive.
+        If the strength is not finite and positive, or `slides` neither true nor false.
     """
 
     strength: float
+    slides: bool = True
     word = "guide"
     friction = 0.0
 
     def __post_init__(self) -> None:
         checked_stress("strength of a guide", self.strength, positive=True)
+        refuse_kind(self.slides, bool, "slides of a guide")
 
     def in_words(self) -> str:
         """Return the joint in words."""
-        return "guide, free to slide along one direction and rigid otherwise"
+        return f"guide, {'free to slide along one direction and rigid otherwise' if self.slides else 'rigid'}"
 
     def assumed(self) -> tuple[str, ...]:
         """Return a sentence for each assumption."""
+        if not self.slides:
+            return ("Rigid guides hold two blocks together as one body.",)
         return ("Guides hold a block against all motion but one translation, without friction.",)
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
-        """Return two rows for each resultant but V1; see :class:`~limitblocks.joints.base.Joint`."""
-        area = areas(polygons)
-        most = (area * self.strength / stress_unit)[:, None] * np.ones(5)
-        most[:, 2:] *= np.sqrt(area)[:, None]
-        F, g = np.concatenate([np.eye(5), -np.eye(5)]), np.concatenate([most, most], axis=1)
-        return _rows(polygons, F, g, [1, 2, 3, 4, 5], (Mode.YIELD,) * 10)
+        """Return two rows for each resultant it carries; see :class:`~limitblocks.joints.base.Joint`."""
+        area, carried = areas(polygons), [0, 1, 2, 3, 4, 5][self.slides :]
+        most = (area * self.strength / stress_unit)[:, None] * np.ones(len(carried))
+        most[:, -3:] *= np.sqrt(area)[:, None]
+        each = np.eye(len(carried))
+        F, g = np.concatenate([each, -each]), np.concatenate([most, most], axis=1)
+        return _rows(polygons, F, g, carried, (Mode.YIELD,) * len(F))
 
 
 def _rows(

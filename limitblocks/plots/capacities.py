@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from limitblocks.errors import refuse_kind
+from limitblocks.errors import few, refuse_kind
 from limitblocks.mechanics.loads.load import triple
 from limitblocks.plots.style import BLUE, PALE, VERMILION, curve_axes, plain
 
@@ -82,7 +82,7 @@ def settlement(curve: SettlementCurve, ax: Any = None) -> Any:
         ax.axvline(curve.falls, color=VERMILION, linewidth=1.0)
         ax.annotate("falls", (curve.falls, curve.reactions.min() / 1e3), (-4, 0), textcoords="offset points",
                     ha="right", va="bottom", color=VERMILION)  # fmt: skip
-    ax.set_xlabel(f"settlement of {curve.support} along {triple(curve.direction.tolist())} (m)")
+    ax.set_xlabel(f"settlement of {few(curve.supports)} along {triple(curve.direction.tolist())} (m)")
     ax.set_ylabel("reaction (kN)")
     plain(ax)
     return ax

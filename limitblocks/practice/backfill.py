@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -104,12 +104,12 @@ def passive_fill(
     return elements
 
 
-def fill_at_rest(model: Model, support: str) -> Model:
-    """Return the model whose passive fill is held by another support than the one that moves."""
-    other = next((name for name in model.supports if name != support), support)
+def fill_at_rest(model: Model, moving: Collection[str]) -> Model:
+    """Return the model whose passive fill is held by another support than those that move."""
+    other = next(name for name in model.supports if name not in moving)
 
     def held(one: Interface) -> Interface:
-        moves = isinstance(one.joint, Backfill) and one.block_j == support
+        moves = isinstance(one.joint, Backfill) and one.block_j in moving
         return replace(one, block_j=other) if moves else one
 
     return replace(model, interfaces=tuple(map(held, model.interfaces)))

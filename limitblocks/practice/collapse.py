@@ -1,4 +1,4 @@
-"""A support that settles by as much as the structure bears: reaction against settlement, and the fall."""
+"""Supports that settle by as much as the structure bears: reaction against settlement, and the fall."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ ACCURACY = 1e-6  # of the size of the structure: the interval in which it falls
 
 def settlement_to_collapse(
     model: Model,
-    support: str,
+    support: str | Sequence[str],
     direction: Sequence[float],
     *,
     without_dilatancy: bool = True,
@@ -38,7 +38,7 @@ def settlement_to_collapse(
     accuracy: float | None = None,
     progress: Callable[[SettlementPoint], None] | None = None,
 ) -> SettlementCurve:
-    """Return the reaction of a support that moves along `direction` until the structure falls.
+    """Return the reaction of a support, or several, that moves along `direction` until the structure falls.
 
     At each point the least reaction of the displaced structure is found as by
     :func:`~limitblocks.practice.settlement`, from its permanent loads; the mechanism that follows the support
@@ -52,10 +52,10 @@ def settlement_to_collapse(
     model : Model
         Its live load is not used. Dead loads may be weights, added masses, forces and moments on blocks: they
         move with the blocks, and keep their directions.
-    support : str
-        Name of the support that moves.
+    support : str or sequence of str
+        Name of the support that moves, or names of those that do, as one body.
     direction : sequence of float
-        Of its motion; any length.
+        Of the motion; any length.
     without_dilatancy : bool
         Whether blocks move by the mechanism without dilatancy, or by that of associated flow.
     step : float, optional
@@ -82,19 +82,20 @@ def settlement_to_collapse(
     step = number(STEP * size if step is None else step, "step", "m", above=0.0)
     accuracy = number(ACCURACY * size if accuracy is None else accuracy, "accuracy", "m", above=0.0)
     largest = farthest(largest, "settlement")
-    unit = settling(model, support, direction).direction
-    place = next(block for block in model.blocks if block.name == support).centroid
-    control = Control(support, place, unit)
+    own = settling(model, support, direction)
+    unit, first = own.direction, own.supports[0]
+    place = next(block for block in model.blocks if block.name == first).centroid
+    control = Control(first, place, unit)
 
     def found(there: Model) -> Settlement:
-        answer = partial(settlement, there, support, unit.tolist(), without_dilatancy=without_dilatancy)
+        answer = partial(settlement, there, own.supports, unit.tolist(), without_dilatancy=without_dilatancy)
         return replace(solved(answer), digest=model.digest)
 
-    first = SettlementPoint(0.0, found(model), ())
+    begin = SettlementPoint(0.0, found(model), ())
     lengths = min(step, FIRST * size), step, accuracy, largest
-    points, end = gathered(_way(assembly, control, first, found, lengths), progress)
+    points, end = gathered(_way(assembly, control, begin, found, lengths), progress)
     falls, ended = (None, end) if isinstance(end, str) else end
-    return SettlementCurve(tuple(points or [first]), falls, ended)
+    return SettlementCurve(tuple(points or [begin]), falls, ended)
 
 
 def _way(
@@ -113,10 +114,8 @@ def _way(
         if point.displacement >= end * (1.0 - 1e-12):
             size = "" if largest <= whole else ", the size of the structure,"
             return None, f"the settlement {end:g} m{size} is reached"
-        if not (
-            point.reaction > CLOSED * point.found.settling.unit or _bears(assembly, control, point.found)
-        ):
-            return None, f"nothing rests on the support any more at {point.displacement:.6g} m"
+        if not (point.reaction > CLOSED * point.found.settling.unit or _bears(assembly, point.found)):
+            return None, f"nothing rests on what settles any more at {point.displacement:.6g} m"
         while True:
             step = min(step, end - point.displacement)
             at = point.displacement + step
@@ -142,14 +141,14 @@ def _way(
         step = min(GROWTH * step, longest) if falls is None else (falls - at) / 2.0
 
 
-def _bears(assembly: Assembly, control: Control, found: Settlement) -> bool:
-    """Whether blocks press the support, across its way if not along it: a beam on one that slides away."""
+def _bears(assembly: Assembly, found: Settlement) -> bool:
+    """Whether blocks press what settles, across its way if not along it: a beam on one that slides away."""
+    moving = found.settling.supports
     forces = (found.result or found.bounds).stress_resultants
     resultant = np.zeros(3)
-    for own, force in zip(assembly.contacts, forces, strict=False):  # the guide comes last
-        ends = own.interface.block_i, own.interface.block_j
-        if control.block in ends:
-            resultant += force[:3] @ own.interface.axes * (1.0 if control.block == ends[0] else -1.0)
+    for own, force in zip(assembly.contacts, forces, strict=False):  # guides come last
+        sign = (own.interface.block_i in moving) - (own.interface.block_j in moving)
+        resultant += sign * force[:3] @ own.interface.axes
     return float(np.linalg.norm(resultant)) > CLOSED * found.settling.unit
 
 
@@ -176,7 +175,7 @@ def _settled(
 
 def _across(there: Advanced, answer: Settlement) -> dict[int, str]:
     end = answer.result or answer.bounds
-    forces = end.stress_resultants[: len(there.assembly.contacts)]  # without those of the guide
+    forces = end.stress_resultants[: len(there.assembly.contacts)]  # without those of guides
     return across(there.assembly, forces, list(range(len(forces))))
 
 

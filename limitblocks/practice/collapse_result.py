@@ -1,4 +1,4 @@
-"""A support that settles until the structure falls: the reaction at each point, and where it falls."""
+"""Supports that settle until the structure falls: the reaction at each point, and where it falls."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from limitblocks.shown import Result, kept
 
 @dataclass(frozen=True, eq=False)
 class SettlementPoint:
-    """One point of the way of a support.
+    """One point of the way of what settles.
 
     Attributes
     ----------
     displacement : float
-        Of the support along its direction, m.
+        Of the supports along the direction, m.
     found : Settlement
         Least reaction of the structure as it then is, with its evidence and mechanism.
     changes : tuple of str
@@ -43,7 +43,7 @@ class SettlementPoint:
 
     @property
     def model(self) -> Model:
-        """The displaced structure, its support free along the direction."""
+        """The displaced structure, whose supports that settle can move along the direction."""
         return self.found.settling.model
 
     def to_dict(self) -> dict[str, Any]:
@@ -53,7 +53,7 @@ class SettlementPoint:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SettlementCurve(Result):
-    """Reaction against the settlement of a support, until the structure falls.
+    """Reaction against the settlement of supports, until the structure falls.
 
     Attributes
     ----------
@@ -71,9 +71,9 @@ class SettlementCurve(Result):
     ended: str
 
     @property
-    def support(self) -> str:
-        """Name of the support that settles."""
-        return self.points[0].found.settling.support
+    def supports(self) -> tuple[str, ...]:
+        """Names of the supports that settle, as one body."""
+        return self.points[0].found.settling.supports
 
     @property
     def direction(self) -> Array:
@@ -131,10 +131,12 @@ class SettlementCurve(Result):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the curve as numbers and text."""
-        names = ("digest", "support", "direction", "points", "stands_to", "falls", "ended")
+        names = ("digest", "supports", "direction", "points", "stands_to", "falls", "ended")
         return {"analysis": "settlement until collapse"} | kept(self, *names)
 
     def __str__(self) -> str:
         first, last = self.reactions[[0, -1]].tolist()
-        said = f"{self.support!r} settles from a reaction of {first:.6g} N to {last:.6g} N"
+        settles = "settles" if len(self.supports) == 1 else "settle"
+        said = f"{self.points[0].found.settling.named} {settles}"
+        said += f" from a reaction of {first:.6g} N to {last:.6g} N"
         return self._line(f"{said}: {self.ended}", *self.filled, *self.remarks)

@@ -1,4 +1,4 @@
-"""A support that moves along a direction: the least reaction it must give, and the mechanism that follows."""
+"""Supports that move along a direction: the least reaction they must give, and the mechanism that follows."""
 
 from __future__ import annotations
 
@@ -11,43 +11,44 @@ import numpy as np
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError, UnlimitedLoad
+from limitblocks.errors import ModelError, UnlimitedLoad, few
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
-from limitblocks.geometry import Interface
+from limitblocks.geometry import Block, Interface
 from limitblocks.geometry.polygon import axes_of
 from limitblocks.joints import Guide
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import JointPressure, force
-from limitblocks.mechanics.loads.load import unit_vector
+from limitblocks.mechanics.loads.load import triple, unit_vector
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.backfill import fill_at_rest
 from limitblocks.practice.elements import CORNERS, Element
-from limitblocks.practice.freed import as_before, other_supports, pressed
+from limitblocks.practice.freed import as_before, moving_supports, pressed
 from limitblocks.shown import Result, kept
 
 JAMMED = (
-    "settlement of {!r}: with dilatancy its reaction has no limit: the structure jams against this motion "
-    "or stones between this support and another press against both, however hard; check the direction, "
-    "that in which the ground moves, such as 0,0,-1 for one that sinks, and what else holds those stones"
+    "settlement of {}: with dilatancy its reaction has no limit: the structure jams against this motion "
+    "or stones between what settles and another support press against both, however hard; check the "
+    "direction, that in which the ground moves, such as 0,0,-1 for one that sinks, and what else holds "
+    "those stones"
 )
 OFF = 1e-6  # of the motion along the line: more than rounding
-RIGID = 1e3  # strength of the guide over the weight of the structure
+RIGID = 1e3  # strength of the guides over the weight of the structure
 
 
 @dataclass(frozen=True, eq=False)
 class Settling:
-    """A model whose support is a block that can move along one direction, pulled away by the live load.
+    """A model whose supports, one or several as one body, can move along a direction: the live load pulls.
 
     Attributes
     ----------
     model : Model
-        The structure: dead loads with the reaction `held` on the support, live load `unit` along the
+        The structure: dead loads with the reaction `held` on the supports, live load `unit` along the
         direction.
-    support : str
-        Name of the support.
+    supports : tuple of str
+        Names of the supports that move.
     direction : Array, shape (3,)
-        Unit vector of its motion.
+        Unit vector of their motion.
     held : float
         Reaction against the direction that an admissible state of the permanent loads needs, N.
     unit : float
@@ -55,7 +56,7 @@ class Settling:
     """
 
     model: Model
-    support: str
+    supports: tuple[str, ...]
     direction: Array
     held: float
     unit: float
@@ -66,12 +67,24 @@ class Settling:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the model and its motion as numbers and text."""
-        return kept(self, "support", "direction", "held", "unit", "model")
+        return kept(self, "supports", "direction", "held", "unit", "model")
+
+    @property
+    def named(self) -> str:
+        """The supports in words."""
+        return few([*map(repr, self.supports)])
+
+    @property
+    def gives_way(self) -> str:
+        """What moves, and where to, as a clause."""
+        one = len(self.supports) == 1
+        who = "the support {} gives way" if one else "the supports {} give way as one body,"
+        return f"{who.format(few(self.supports))} along {triple(self.direction.tolist())}, without turning"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Settlement(Result):
-    """Least reaction of a support that settles: the ground gives way until the structure follows it.
+    """Least reaction of supports that settle: the ground gives way until the structure follows it.
 
     Attributes
     ----------
@@ -88,7 +101,7 @@ class Settlement(Result):
     result : Nonassociated or None
         Evidence of the third; its mechanism is the crack pattern.
     digest : str
-        SHA-256 of the model that was given, whose support does not move yet.
+        SHA-256 of the model that was given, whose supports do not move yet.
     """
 
     settling: Settling
@@ -120,28 +133,29 @@ class Settlement(Result):
         return {"analysis": "settlement"} | kept(self, *names)
 
     def __str__(self) -> str:
-        least = f"least reaction of {self.settling.support!r}: {self.lower:.6g} to {self.upper:.6g} N"
+        least = f"least reaction of {self.settling.named}: {self.lower:.6g} to {self.upper:.6g} N"
         real = "" if self.nonassociated is None else f", {self.nonassociated:.6g} N without dilatancy"
         return self._line(f"{least} (associated){real}", *self.remarks)
 
 
 def settlement(
-    model: Model, support: str, direction: Sequence[float], *, without_dilatancy: bool = True
+    model: Model, support: str | Sequence[str], direction: Sequence[float], *, without_dilatancy: bool = True
 ) -> Settlement:
     """Return the least reaction of a support that moves along `direction`, under the dead loads.
 
     The ground moves away without turning; the structure needs less and less of its reaction until, at the
     least one, it follows as a mechanism. Its cracks are the joints that move. With the direction reversed the
-    support is pushed into the structure: the reaction found is minus the greatest one.
+    support is pushed into the structure: the reaction found is minus the greatest one. Several supports, such
+    as the stones that a pier stands on, move as one body; the reaction is that of all of them together.
 
     Parameters
     ----------
     model : Model
         Its live load is not used.
-    support : str
-        Name of the support that moves.
+    support : str or sequence of str
+        Name of the support that moves, or names of those that do.
     direction : sequence of float
-        Of its motion, such as (0, 0, -1); any length.
+        Of the motion, such as (0, 0, -1); any length.
     without_dilatancy : bool
         Whether the reaction without dilatancy is found as well.
 
@@ -149,12 +163,12 @@ def settlement(
     -------
     Settlement
         Reactions are components against the direction, N, with the pressure of water in the joints of the
-        support; the weight of the support itself is left out.
+        supports that move; their own weight is left out.
 
     Raises
     ------
     ModelError
-        If `support` is not a support, or the only one.
+        If `support` is not a support, or none stays.
     NoEquilibrium
         If the dead loads cannot stand.
     UnlimitedLoad
@@ -165,17 +179,18 @@ def settlement(
 
     Notes
     -----
-    The support is a free block that a guide holds; the load factor of its live load along the direction is
-    greatest where its reaction is least. Static theorem: Eqs (56)-(57) with the reaction as the unknown load.
+    The support is a free block that a guide holds, and rigid guides join others to it; the load factor of its
+    live load along the direction is greatest where its reaction is least. Static theorem: Eqs (56)-(57) with
+    the reaction as the unknown load.
     """
     own = settling(model, support, direction)
     try:
         pair = bounds(own.model)
     except UnlimitedLoad as error:
-        raise UnlimitedLoad(JAMMED.format(support)) from error
+        raise UnlimitedLoad(JAMMED.format(own.named)) from error
     result = nonassociated(own.model) if without_dilatancy else None
     if any(_leaves_its_line(own, answer.displacement_rates) for answer in (pair, result) if answer):
-        raise UnlimitedLoad(JAMMED.format(support))
+        raise UnlimitedLoad(JAMMED.format(own.named))
     return Settlement(
         settling=own,
         lower=own.reaction(pair.upper),
@@ -188,51 +203,62 @@ def settlement(
 
 
 def _leaves_its_line(own: Settling, rates: Array) -> bool:
-    """True if the guide yields: its strength, not of the structure, limits what nothing else does."""
-    names = [block.name for block in own.model.blocks]
-    k = names.index(own.support)
-    along = float(rates[k, :3] @ own.direction)
-    off = np.append(rates[k, :3] - along * own.direction, own.model.blocks[k].size * rates[k, 3:])
+    """True if a guide yields: its strength, not of the structure, limits what nothing else does."""
+    places = {block.name: k for k, block in enumerate(own.model.blocks)}
+    along = float(rates[places[own.supports[0]], :3] @ own.direction)
+    off = rates[[places[name] for name in own.supports]] - np.append(along * own.direction, np.zeros(3))
+    off[:, 3:] *= np.array([own.model.blocks[places[name]].size for name in own.supports])[:, None]
     return bool(np.abs(off).max() > OFF * abs(along))
 
 
-def settling(model: Model, support: str, direction: Sequence[float]) -> Settling:
+def settling(model: Model, support: str | Sequence[str], direction: Sequence[float]) -> Settling:
     """Return the model in which `support` can move along `direction` only; see :func:`settlement`.
 
     Raises
     ------
     ModelError
-        If `support` is none or the only one, the direction is zero, or there are no dead loads.
+        If `support` is none, or none stays, the direction is zero, or there are no dead loads.
     """
     checked_model(model)
-    d = np.array(unit_vector(direction, f"settlement of {support!r}: direction"))
-    others = other_supports(model, support)
-    block = next(block for block in model.blocks if block.name == support)
-    model = fill_at_rest(model, support)
+    moving = moving_supports(model, support)
+    d = np.array(unit_vector(direction, f"settlement of {few([*map(repr, moving)])}: direction"))
+    model = fill_at_rest(model, moving)
     weight = float(np.linalg.norm(model.dead.on(model.free_blocks)[:, :3], axis=1).sum())
     if not weight > 0.0:
         raise ModelError("settlement: the dead loads are zero; there is no reaction to lose")
-    pulled = sum((Element(own).loads({support}) for own in model.interfaces), Load())
+    blocks = [block for name in moving for block in model.blocks if block.name == name]
+    pulled = sum((Element(own).loads(moving) for own in model.interfaces), Load())
     water = Load(tuple(one for one in model.dead.terms if isinstance(one[1], JointPressure)))
-    at = (pulled + water).on([block])[0, :3]
-    held = float((pressed(model, support) + at) @ d)
-    guide = Interface(
-        others[0],
-        support,
-        block.centroid,
-        read_only(axes_of(d)[[2, 0, 1]]),  # s1 along the motion
-        read_only(block.size * CORNERS),
-        Guide(RIGID * weight / block.size**2),
-    )
-    weightless = replace(block, unit_weight=0.0)
-    reaction = force(support, (-held * d).tolist(), block.centroid.tolist())
+    at, press = (pulled + water).on(blocks)[:, :3], pressed(model, moving)
+    held = [float((press[name] + on) @ d) for name, on in zip(moving, at, strict=True)]
+    reactions = [
+        force(one.name, (-part * d).tolist(), one.centroid.tolist())
+        for one, part in zip(blocks, held, strict=True)
+    ]
+    reaction = sum(reactions, Load())
     freed = replace(
         model,
-        blocks=tuple(weightless if one is block else one for one in model.blocks),
-        supports=tuple(others),
-        interfaces=(*model.interfaces, guide),
+        blocks=tuple(replace(one, unit_weight=0.0) if one.name in moving else one for one in model.blocks),
+        supports=tuple(name for name in model.supports if name not in moving),
+        interfaces=(*model.interfaces, *_guides(model, blocks, d, weight)),
         dead=model.dead + pulled + reaction,
-        live=force(support, (weight * d).tolist(), block.centroid.tolist()),
+        live=force(moving[0], (weight * d).tolist(), blocks[0].centroid.tolist()),
     )
-    on_support = (pulled + water + reaction).on([block])[0]
-    return Settling(as_before(model, freed, support, on_support), support, read_only(d), held, weight)
+    on_supports = dict(zip(moving, (pulled + water + reaction).on(blocks), strict=True))
+    return Settling(as_before(model, freed, on_supports), moving, read_only(d), sum(held), weight)
+
+
+def _guides(model: Model, moving: Sequence[Block], d: Array, weight: float) -> list[Interface]:
+    """The guide along d of the first block that moves, and what holds the others to it."""
+    still = next(name for name in model.supports if name not in {block.name for block in moving})
+    first, ends = moving[0], np.stack([block.centroid for block in moving])
+    size = max(first.size, float(np.linalg.norm(ends - ends[0], axis=1).max()))  # a lever to what it bears
+    axes, polygon = read_only(axes_of(d)[[2, 0, 1]]), read_only(size * CORNERS)  # s1 along the motion
+    own = Guide(RIGID * weight / size**2)
+    return [
+        Interface(still, first.name, first.centroid, axes, polygon, own),
+        *(
+            Interface(first.name, one.name, one.centroid, axes, polygon, replace(own, slides=False))
+            for one in moving[1:]
+        ),
+    ]

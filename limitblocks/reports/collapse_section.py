@@ -13,8 +13,8 @@ from limitblocks.reports.section import LEGEND, Section
 from limitblocks.reports.words import cut, figures, kilonewtons
 
 FOLLOWING = (
-    "The structure at a settlement of {:.6g} m, drawn as it then is, and the mechanism that follows the "
-    "support, {:.3g} times, linearly. Dashed: the moving blocks before they move on."
+    "The structure at a settlement of {:.6g} m, drawn as it then is, and the mechanism that follows "
+    "what settles, {:.3g} times, linearly. Dashed: the moving blocks before they move on."
 )
 _GAPS, _FALLS = "no joint presses across a gap", ", then it falls"
 
@@ -27,10 +27,10 @@ def collapse_section(_model: Model, curve: SettlementCurve) -> Section:
     flow = "without dilatancy" if last.found.result else "of associated flow"
     upper = "" if curve.falls is None else f"{figures(curve.falls, 7)} m"
     return Section(
-        title=f"Settlement of {curve.support} until collapse",
+        title=f"Settlement of {few(curve.supports)} until collapse",
         meaning=(
-            f"The support {curve.support} moves along {triple(curve.direction.tolist())}, without turning, "
-            f"under the dead loads. The mechanism {flow} that follows it moves the blocks by finite screws, "
+            f"Under the dead loads {first.found.settling.gives_way}. "
+            f"The mechanism {flow} that follows moves the blocks by finite screws, "
             "contacts are found anew, and the least reaction of the displaced structure is an answer of its "
             "own, recomputed without the solver. Where no stresses within yield carry the dead loads any "
             "more, it falls (static theorem). Slow motion: no impact."
@@ -77,7 +77,7 @@ def _points(curve: SettlementCurve) -> Table:
 def _curve(curve: SettlementCurve) -> Curve | None:
     if len(curve.points) < 2:
         return None
-    label = f"settlement of {curve.support} along {triple(curve.direction.tolist())}, m"
+    label = f"settlement of {few(curve.supports)} along {triple(curve.direction.tolist())}, m"
     title = "Least reaction against settlement"
     said = [f"{one.displacement:.6g} m: {kilonewtons(one.reaction)}" for one in curve.points]
     caption = f"{title}, a dot a point with an answer of its own: {curve.ended}."

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from limitblocks.drawing.picture import mechanism_picture
-from limitblocks.mechanics.loads.load import triple
+from limitblocks.errors import few
 from limitblocks.model import Model
 from limitblocks.practice import Repair, Settlement, WorstPosition
 from limitblocks.practice.partial_factors import live_factor
@@ -19,7 +19,7 @@ from limitblocks.reports.words import at_least, at_most, cut, figures, kilonewto
 from limitblocks.shown import coordinate
 
 SETTLED = (
-    "The mechanism that follows the support, drawn {:.3g} times, linearly; its size is arbitrary. Joints "
+    "The mechanism that follows what settles, drawn {:.3g} times, linearly; its size is arbitrary. Joints "
     "that move are the cracks. Dashed: the moving blocks before they moved."
 )
 LOADED = (
@@ -52,15 +52,14 @@ def settlement_section(_model: Model, found: Settlement) -> Section:
             )
         )
     picture = mechanism_picture(own.model, end.displacement_rates, pushed=False)  # by the dead loads alone
-    drawn = picture.sheet(f"Mechanism that follows {own.support}")
+    drawn = picture.sheet(f"Mechanism that follows {few(own.supports)}")
     return Section(
-        title=f"Settlement of {own.support}",
+        title=f"Settlement of {few(own.supports)}",
         own=True,
         meaning=(
-            f"The support {own.support} gives way along {triple(own.direction.tolist())}, without turning, "
-            "under the dead loads. The structure needs less and less of its reaction until, at the least "
-            "one, it follows as a mechanism. Reactions are components against that direction; the weight of "
-            "the support itself is left out."
+            f"Under the dead loads {own.gives_way}. The structure needs less and less of the reaction "
+            "until, at the least one, it follows as a mechanism. Reactions are components against that "
+            "direction; the weight of what gives way is left out."
         ),
         headline=kilonewtons(least),
         quantity="least reaction" + (" without dilatancy" if found.result else ", associated flow"),

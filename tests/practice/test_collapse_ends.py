@@ -17,7 +17,7 @@ from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoin
 def test_nothing_rests_on_a_support_that_the_others_spare():
     model = beam_on({"a": (-2.0, -1.6), "b": (-0.2, 0.2), "c": (1.6, 2.0)}, (-2.0, 2.0), lb.PointContact(0.5))
     curve = settlement_to_collapse(model, "b", (0, 0, -1))
-    assert curve.ended == "nothing rests on the support any more at 0 m"
+    assert curve.ended == "nothing rests on what settles any more at 0 m"
     assert curve.reactions == pytest.approx([0.0], abs=1e-3)
 
 
