@@ -11,7 +11,8 @@ from limitblocks.practice.elements import Element, dowel, reinforced, strip, tie
 from limitblocks.practice.partial_factors import PartialFactors
 from limitblocks.practice.repair import Repair, least_masses, least_ties
 from limitblocks.practice.rocking import Rocking, elastic_period, element_acceleration, element_force
-from limitblocks.practice.settlement import Settlement, Settling, settlement, settling
+from limitblocks.practice.settlement import Settlement, settlement
+from limitblocks.practice.settling import Settling, settling
 from limitblocks.practice.spectra import Floor, FloorMode, Spectrum
 from limitblocks.practice.vehicles import Deck, Vehicle, vehicle_load
 from limitblocks.practice.verification import verification

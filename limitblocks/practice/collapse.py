@@ -18,7 +18,8 @@ from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
 from limitblocks.practice.displaced import CLOSED, Assembly
 from limitblocks.practice.kept import gathered, solved
-from limitblocks.practice.settlement import Settlement, settlement, settling
+from limitblocks.practice.settlement import Settlement, settlement
+from limitblocks.practice.settling import settling
 from limitblocks.practice.touching import across
 
 STEP = 0.01  # of the size of the structure: the largest step

@@ -3,27 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
-from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError, UnlimitedLoad, few
+from limitblocks.arrays import Array
+from limitblocks.errors import UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
-from limitblocks.geometry import Block, Interface
-from limitblocks.geometry.polygon import axes_of
-from limitblocks.joints import Guide
-from limitblocks.mechanics import Load
-from limitblocks.mechanics.loads import JointPressure, force
-from limitblocks.mechanics.loads.load import triple, unit_vector
-from limitblocks.model import Model, checked_model
-from limitblocks.practice.backfill import fill_at_rest
-from limitblocks.practice.elements import CORNERS, Element
-from limitblocks.practice.freed import as_before, moving_supports, pressed
+from limitblocks.model import Model
+from limitblocks.practice.settling import Settling, settling
 from limitblocks.shown import Result, kept
 
 JAMMED = (
@@ -33,53 +25,6 @@ JAMMED = (
     "those stones"
 )
 OFF = 1e-6  # of the motion along the line: more than rounding
-RIGID = 1e3  # strength of the guides over the weight of the structure
-
-
-@dataclass(frozen=True, eq=False)
-class Settling:
-    """A model whose supports, one or several as one body, can move along a direction: the live load pulls.
-
-    Attributes
-    ----------
-    model : Model
-        The structure: dead loads with the reaction `held` on the supports, live load `unit` along the
-        direction.
-    supports : tuple of str
-        Names of the supports that move.
-    direction : Array, shape (3,)
-        Unit vector of their motion.
-    held : float
-        Reaction against the direction that an admissible state of the permanent loads needs, N.
-    unit : float
-        Live load at load factor one, N.
-    """
-
-    model: Model
-    supports: tuple[str, ...]
-    direction: Array
-    held: float
-    unit: float
-
-    def reaction(self, load_factor: float) -> float:
-        """Return the reaction against the direction, N, at a `load_factor` of the settling model."""
-        return self.held - load_factor * self.unit
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the model and its motion as numbers and text."""
-        return kept(self, "supports", "direction", "held", "unit", "model")
-
-    @property
-    def named(self) -> str:
-        """The supports in words."""
-        return few([*map(repr, self.supports)])
-
-    @property
-    def gives_way(self) -> str:
-        """What moves, and where to, as a clause."""
-        one = len(self.supports) == 1
-        who = "the support {} gives way" if one else "the supports {} give way as one body,"
-        return f"{who.format(few(self.supports))} along {triple(self.direction.tolist())}, without turning"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -209,56 +154,3 @@ def _leaves_its_line(own: Settling, rates: Array) -> bool:
     off = rates[[places[name] for name in own.supports]] - np.append(along * own.direction, np.zeros(3))
     off[:, 3:] *= np.array([own.model.blocks[places[name]].size for name in own.supports])[:, None]
     return bool(np.abs(off).max() > OFF * abs(along))
-
-
-def settling(model: Model, support: str | Sequence[str], direction: Sequence[float]) -> Settling:
-    """Return the model in which `support` can move along `direction` only; see :func:`settlement`.
-
-    Raises
-    ------
-    ModelError
-        If `support` is none, or none stays, the direction is zero, or there are no dead loads.
-    """
-    checked_model(model)
-    moving = moving_supports(model, support)
-    d = np.array(unit_vector(direction, f"settlement of {few([*map(repr, moving)])}: direction"))
-    model = fill_at_rest(model, moving)
-    weight = float(np.linalg.norm(model.dead.on(model.free_blocks)[:, :3], axis=1).sum())
-    if not weight > 0.0:
-        raise ModelError("settlement: the dead loads are zero; there is no reaction to lose")
-    blocks = [block for name in moving for block in model.blocks if block.name == name]
-    pulled = sum((Element(own).loads(moving) for own in model.interfaces), Load())
-    water = Load(tuple(one for one in model.dead.terms if isinstance(one[1], JointPressure)))
-    at, press = (pulled + water).on(blocks)[:, :3], pressed(model, moving)
-    held = [float((press[name] + on) @ d) for name, on in zip(moving, at, strict=True)]
-    reactions = [
-        force(one.name, (-part * d).tolist(), one.centroid.tolist())
-        for one, part in zip(blocks, held, strict=True)
-    ]
-    reaction = sum(reactions, Load())
-    freed = replace(
-        model,
-        blocks=tuple(replace(one, unit_weight=0.0) if one.name in moving else one for one in model.blocks),
-        supports=tuple(name for name in model.supports if name not in moving),
-        interfaces=(*model.interfaces, *_guides(model, blocks, d, weight)),
-        dead=model.dead + pulled + reaction,
-        live=force(moving[0], (weight * d).tolist(), blocks[0].centroid.tolist()),
-    )
-    on_supports = dict(zip(moving, (pulled + water + reaction).on(blocks), strict=True))
-    return Settling(as_before(model, freed, on_supports), moving, read_only(d), sum(held), weight)
-
-
-def _guides(model: Model, moving: Sequence[Block], d: Array, weight: float) -> list[Interface]:
-    """The guide along d of the first block that moves, and what holds the others to it."""
-    still = next(name for name in model.supports if name not in {block.name for block in moving})
-    first, ends = moving[0], np.stack([block.centroid for block in moving])
-    size = max(first.size, float(np.linalg.norm(ends - ends[0], axis=1).max()))  # a lever to what it bears
-    axes, polygon = read_only(axes_of(d)[[2, 0, 1]]), read_only(size * CORNERS)  # s1 along the motion
-    own = Guide(RIGID * weight / size**2)
-    return [
-        Interface(still, first.name, first.centroid, axes, polygon, own),
-        *(
-            Interface(first.name, one.name, one.centroid, axes, polygon, replace(own, slides=False))
-            for one in moving[1:]
-        ),
-    ]
