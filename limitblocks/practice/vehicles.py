@@ -118,12 +118,17 @@ def vehicle_load(model: Model, vehicle: Vehicle, deck: Deck, position: float) ->
     """
     refuse_kind(vehicle, Vehicle, "vehicle")
     refuse_kind(deck, Deck, "deck")
-    total, position, deck = Load(), number(position, "position", "m"), deck.on(model)
-    for load, distance in zip(vehicle.axles, vehicle.distances, strict=True):
-        total = total + _axle(model, load, vehicle.contact, deck, position + distance)
+    total = axles(model, vehicle, deck.on(model), number(position, "position", "m"))
     if not total.terms:
         raise ModelError(f"no axle of the vehicle at x = {coordinate(position)} m stands on a free block")
     return total
+
+
+def axles(model: Model, vehicle: Vehicle, deck: Deck, position: float) -> Load:
+    """Return the axles as :func:`vehicle_load`, without terms where none stands on a free block."""
+    places = zip(vehicle.axles, vehicle.distances, strict=True)
+    each = [_axle(model, load, vehicle.contact, deck, position + distance) for load, distance in places]
+    return sum(each, Load())
 
 
 def half_lengths(free: Sequence[Block], contact: float, deck: Deck, x: Array) -> Array:

@@ -18,7 +18,7 @@ from limitblocks.model import Model
 from limitblocks.practice.envelope import Found, search
 from limitblocks.practice.influence import line_of
 from limitblocks.practice.partial_factors import live_factor
-from limitblocks.practice.vehicles import Deck, Vehicle, vehicle_load
+from limitblocks.practice.vehicles import Deck, Vehicle, axles
 from limitblocks.shown import Result, coordinate, kept
 
 STOPPED = "interrupted: a position that was not tried may be worse"
@@ -177,12 +177,11 @@ def _whole(model: Model, vehicle: Vehicle) -> tuple[float, float]:
 
 def _loaded(model: Model, vehicle: Vehicle, deck: Deck, x: float) -> tuple[Bounds, Model] | None:
     """Bounds with the vehicle there; None where it puts nothing on the structure, or any multiple stands."""
+    live = axles(model, vehicle, deck, x)
+    if not live.terms:
+        return None
+    loaded = replace(model, live=live)
     try:
-        loaded = replace(model, live=vehicle_load(model, vehicle, deck, x))
         return bounds(loaded), loaded
     except UnlimitedLoad:
         return None
-    except ModelError as error:
-        if "stands on a free block" in str(error):
-            return None
-        raise
