@@ -161,12 +161,10 @@ def _refuse_no_supports(file: Path, imported: ImportedBlocks, supports: list[str
 
     if supports or imported.supports:
         return
-    likely = likely_supports(imported.blocks)
-    such = f", perhaps {' '.join(f'--supports {shlex.quote(one)}' for one in likely[0].chosen_by)}" * bool(
-        likely
-    )
+    likely = [one.chosen_by for one in likely_supports(imported.blocks)[:1]]
+    such = [f", perhaps {' '.join(f'--supports {shlex.quote(one)}' for one in names)}" for names in likely]
     raise ModelError(
-        f"{file}: which blocks do not move? give --supports{such}; there are {listed(imported.blocks)}; "
+        f"{file}: which blocks do not move? give --supports{''.join(such)}; there are {listed(imported.blocks)}; "
         f"limitblocks look {shlex.quote(str(file))} shows more"
     )
 

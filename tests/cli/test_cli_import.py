@@ -37,6 +37,14 @@ def test_import_makes_a_model_file_that_can_be_analysed(obj, tmp_path):
     assert lb.bounds(model).lower == pytest.approx(0.5, abs=1e-6)
 
 
+def test_stones_that_all_lie_on_the_ground_are_no_likely_supports(tmp_path):
+    """Two stones side by side, as two that interlock: which of them stays is for the user to say."""
+    boxes = [lb.Block.box(name, (1, 1, 0.2), (x, 0, 0.1)) for name, x in (("left", 0), ("right", 1))]
+    result = run(lb.files.write_blocks(boxes, tmp_path / "flat.obj"), *OPTIONS)
+    assert result.exit_code == 2
+    assert "which blocks do not move? give --supports; there are" in result.stderr
+
+
 def test_output_is_not_overwritten_without_force(obj, tmp_path):
     output = tmp_path / "mine.json"
     output.write_text("mine")
