@@ -164,8 +164,8 @@ def _refuse_no_supports(file: Path, imported: ImportedBlocks, supports: list[str
     likely = [one.chosen_by for one in likely_supports(imported.blocks)[:1]]
     such = [f", perhaps {' '.join(f'--supports {shlex.quote(one)}' for one in names)}" for names in likely]
     raise ModelError(
-        f"{file}: which blocks do not move? give --supports{''.join(such)}; there are {listed(imported.blocks)}; "
-        f"limitblocks look {shlex.quote(str(file))} shows more"
+        f"{file}: which blocks do not move? give --supports{''.join(such)}; there are "
+        f"{listed(imported.blocks)}; limitblocks look {shlex.quote(str(file))} shows more"
     )
 
 

@@ -18,6 +18,7 @@ from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.analysis.nonassociated.path_record import off_load_path
 from limitblocks.analysis.nonassociated.start import Bracket, load_scale, state_of
 from limitblocks.arrays import Array
+from limitblocks.errors import UnlimitedLoad
 from limitblocks.evidence.ending import Status
 from limitblocks.evidence.range_answer import Origin, RangeAnswer
 from limitblocks.evidence.range_result import Extreme
@@ -79,9 +80,12 @@ def walked(
 def _first(task: Task, watch: Callable[[object], None]) -> RangeAnswer | None:
     """The answer of `nonassociated`, collected."""
     flow = task.flow
-    result = nonassociated(
-        task.model, dilatancy=flow.dilatancy, turning=flow.turning, progress=watch, throw=False
-    )
+    try:
+        result = nonassociated(
+            task.model, dilatancy=flow.dilatancy, turning=flow.turning, progress=watch, throw=False
+        )
+    except UnlimitedLoad:  # along the load path; other ways may end
+        return None
     if result.status is Status.INTERRUPTED:
         raise KeyboardInterrupt
     if not result.converged:

@@ -9,11 +9,12 @@ import numpy as np
 
 from limitblocks.analysis.nonassociated.closing import NEAR, Closing
 from limitblocks.analysis.nonassociated.displacement_path import pushed_over
-from limitblocks.analysis.nonassociated.loading import Pushed, pushed
+from limitblocks.analysis.nonassociated.loading import CLIMBS, Pushed, pushed
 from limitblocks.analysis.nonassociated.means import SOFTENING, Means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop, told
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import (
+    CLIMBING,
     DISPLACED,
     INCREMENTS,
     INTERRUPTED,
@@ -109,7 +110,8 @@ class Given:
 
         start = self.flow, self.x0, problem.compliance
         try:
-            return pushed(*start, self.tolerance, STEPS, self.scale, tell)[1], how
+            _, last, why = pushed(*start, self.tolerance, STEPS, self.scale, tell)
+            return last, f"{how}, {CLIMBING}" if why == CLIMBS else how
         except KeyboardInterrupt:
             return met[-1], f"{how}, {INTERRUPTED}"
 

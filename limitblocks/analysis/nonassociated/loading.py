@@ -54,8 +54,8 @@ TOO_SMALL = (
 )
 CLIMBS = (
     "the live load can grow without limit along the load path: its increments, each in equilibrium within "
-    f"yield, reach a live load {CLIMBED:g} times the dead loads and the strengths of the joints; check its "
-    "direction"
+    f"yield, reach a live load {CLIMBED:g} times the dead loads and the strengths of the joints; either "
+    "the blocks jam against it, or its direction is not the one that was meant"
 )
 SPRINGS_BACK = (
     f"; near load factor {{:.6g}} the structure {RETURNS}, farther than they follow: a smaller barrier, "

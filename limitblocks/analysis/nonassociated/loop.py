@@ -15,9 +15,10 @@ from limitblocks.analysis.nonassociated.in_the_plane import (
     flow_in_plane,
     found_in_plane_or_whole,
 )
+from limitblocks.analysis.nonassociated.loading import CLIMBS
 from limitblocks.analysis.nonassociated.means import MEANS, Means, checked_means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop, told
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLED, recorder
+from limitblocks.analysis.nonassociated.path_record import CLIMBING, INTERRUPTED, UNSETTLED, recorder
 from limitblocks.analysis.nonassociated.start import (
     Start,
     flow_of,
@@ -31,6 +32,7 @@ from limitblocks.analysis.nonassociated.ways import Half, first_to_solve, no_hal
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.arrays import Array
 from limitblocks.choices import Method, method_of
+from limitblocks.errors import UnlimitedLoad
 from limitblocks.evidence.backward_error import checked_limit, settled, within
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.evidence.results import Iteration, Nonassociated
@@ -108,7 +110,7 @@ def nonassociated(
         If the dead loads alone cannot stand.
     UnlimitedLoad
         If the flow is associated everywhere, or normal forces alone balance the live load, and it can grow
-        without limit.
+        without limit; or if no path ends and the increments of the load path climb without limit.
     NotConverged
         If no path ends, or no round of the loop, within the tolerance, or the user interrupts it; NoSolution,
         one of its kind, if it is proven that there is none.
@@ -139,6 +141,8 @@ def nonassociated(
             return first_to_solve(given, means, near, half)
 
         state, how = found_in_plane_or_whole(model, flow, first, tolerance, solve)
+        if CLIMBING in how and not how.endswith(INTERRUPTED) and not _near(flow, tolerance, limit, state):
+            raise UnlimitedLoad(CLIMBS)
         said = by_self_stress(model, flow, flow.problem.compliance) if first is None else ()
     tell_end(flow, state, record)
     return finished(

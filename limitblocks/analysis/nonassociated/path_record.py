@@ -15,6 +15,7 @@ from limitblocks.evidence.results import ITERATIONS, Iteration
 
 CLOSED, INTERRUPTED = "closed", "interrupted"
 UNSETTLED = "its load factor still changing"
+CLIMBING = "climbing without limit"
 LARGE, ROUNDS, IN_HALF = "large barrier", "of the fixed point", "in one half"
 FROZEN, INCREMENTS = "fixed point", "increments of the load path"
 DISPLACED = "path in displacements, rounded corners of yield"

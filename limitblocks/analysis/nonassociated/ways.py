@@ -20,7 +20,7 @@ from limitblocks.analysis.nonassociated.means import (
     TURNED_SOFTENING,
     Means,
 )
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLED
+from limitblocks.analysis.nonassociated.path_record import CLIMBING, INTERRUPTED, UNSETTLED
 from limitblocks.analysis.nonassociated.settling import exact_nearby
 from limitblocks.analysis.polish import defect
 from limitblocks.evidence.residuals import Residuals, mcp_residuals
@@ -73,7 +73,8 @@ def first_to_solve(
             break
     # what solves all equations but gives power comes next
     state, way = min(met, key=lambda one: left_over(mcp_residuals(flow, one[0]), given.tolerance))
-    way += f", {UNSETTLED}" * (_unsettled(met) and UNSETTLED not in way)
+    for said in (UNSETTLED, CLIMBING):
+        way += f", {said}" * (_said(met, said) and said not in way)
     interrupted = how.endswith(INTERRUPTED) and not way.endswith(INTERRUPTED)
     return state, f"{way}, {INTERRUPTED}" if interrupted else way
 
@@ -83,12 +84,12 @@ def _solved(given: Given, met: Sequence[Way]) -> bool:
     state, how = met[-1]
     if UNSETTLED in how or mcp_residuals(given.flow, state).worst.value > given.tolerance:
         return False
-    return not _unsettled(met) or exact_nearby(given.flow, state)
+    return not _said(met, UNSETTLED) or exact_nearby(given.flow, state)
 
 
-def _unsettled(met: Sequence[Way]) -> bool:
-    """Whether the load factor of a path still changed at its end."""
-    return any(UNSETTLED in how for _, how in met)
+def _said(met: Sequence[Way], end: str) -> bool:
+    """Whether a way ended so."""
+    return any(end in how for _, how in met)
 
 
 def means_of(flow: Flow, reduced: bool = False) -> Sequence[Means]:
