@@ -1,4 +1,4 @@
-"""Slips in the dead load: self weight that is forgotten, or counted twice."""
+"""Slips in the dead load: self weight that is forgotten, counted twice, or does not act downwards."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.forces import MassProportional, PointForce
 from limitblocks.mechanics.loads.load import Load, some
 from limitblocks.model import Model
+from limitblocks.shown import coordinates
 
 #: Least and greatest partial factor; beyond the greatest, the self weight may be given twice.
 _LEAST, _MOST = 0.9, 1.5
@@ -30,6 +31,9 @@ def of_weights(model: Model) -> Iterator[str]:
     grows = live[2] < 0.0 and not live[:2].any()  # the weight is what the load factor multiplies
     if heavy and model.dead.terms and not dead.any() and not grows and not _by_hand(model.dead, heavy):
         yield f"the dead load lacks the weight of {_weights(heavy)}: add self_weight()"
+    if heavy and dead.any() and dead[2] >= 0.0 and not grows and not _by_hand(model.dead, heavy):
+        to = coordinates((dead / np.linalg.norm(dead)).tolist())
+        yield f"the dead load has the weight of {_weights(heavy)}, along {to}: meant? Down is (0, 0, -1)"
 
 
 def _times(load: Load) -> Array:

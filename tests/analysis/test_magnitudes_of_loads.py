@@ -32,6 +32,22 @@ def test_self_weight_that_is_forgotten_or_given_twice_is_asked_about(dead, said)
     assert not said or said in asked[0]
 
 
+@pytest.mark.parametrize(
+    ("to", "factor", "asked"),
+    [
+        ((0, 0, 1), 1.0, "(0, 0, 1)"),
+        ((0, 0, -1), -1.0, "(0, 0, 1)"),
+        ((0, -1, 0), 1.0, "(0, -1, 0)"),
+        ((0.1, 0, -1), 1.0, ""),
+    ],
+)
+def test_weights_that_do_not_act_downwards_are_asked_about(to, factor, asked):
+    """Gravity with the wrong sign, or along Y as in a plane."""
+    found = questions(replace(block(), dead=factor * lb.mass_proportional(to)))
+    said = "the dead load has the weight of block 'block 1', 1e+04 N, along {}: meant? Down is (0, 0, -1)"
+    assert found == [said.format(asked)] * bool(asked)
+
+
 def test_weights_given_as_forces_are_not_forgotten_where_one_is_left_out():
     """A block of soil that the load factor moves, say, beside a wall of 20 kN."""
     model = lb.structures.column(lb.PointContact(0.6), count=2, width=1.0, height=1.0)
