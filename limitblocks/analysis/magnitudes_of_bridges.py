@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from limitblocks.analysis.magnitudes_of_fills import of_earth_pressure
 from limitblocks.mechanics.loads.fills import Fill
 from limitblocks.model import Model
 from limitblocks.shown import coordinate
@@ -18,7 +19,7 @@ def of_passive(coefficient: float) -> list[str]:
     """Return the question for a coefficient of passive earth pressure: Rankine's is one or more."""
     if coefficient < 1.0:
         return [f"coefficient of passive pressure is {coefficient:g}, below 1: that of active pressure?"]
-    return []
+    return of_earth_pressure(coefficient)
 
 
 def of_axles(axles: Sequence[float]) -> list[str]:

@@ -1,4 +1,4 @@
-"""Slips in fill: given twice, or pressing both sides of a wall that retains it on one."""
+"""Slips in fill: an angle for its coefficient, given twice, pressing both sides of a wall that retains it."""
 
 from __future__ import annotations
 
@@ -22,6 +22,8 @@ _SAME = 1e-3
 _MUCH = 0.1
 #: Unit weight, N/m3, that neither water nor soil has: concrete has 2.5e4.
 HEAVY_FILL = 3e4
+#: Coefficient of earth pressure that may be an angle in degrees: dense sand on a rough wall has 18.
+_ANGLE = 20.0
 #: Cosine from which fill counts as on the other side.
 _TOWARDS = 1e-6
 _ROUNDED = 1e-9  # of the fill on a face: less is missing by rounding
@@ -29,9 +31,26 @@ _ROUNDED = 1e-9  # of the fill on a face: less is missing by rounding
 
 def of_fills(model: Model) -> Iterator[str]:
     """Return what is asked about the fill of a model."""
+    pressures = {
+        term.coefficient for _, term in model.dead.terms + model.live.terms if isinstance(term, Fill)
+    }
+    for coefficient in sorted(pressures):
+        yield from of_earth_pressure(coefficient)
     yield from _twice(model)
     yield from _on_both_sides(model)
     yield from of_resisting(model)
+
+
+def of_earth_pressure(coefficient: float) -> list[str]:
+    """Return the question for a coefficient of earth pressure that no soil has."""
+    if coefficient < _ANGLE:
+        return []
+    said = f"coefficient of earth pressure is {coefficient:g}"
+    if coefficient >= 90.0:
+        return [f"{said}, more than of any soil"]
+    sine = np.sin(np.radians(coefficient))
+    active = (1.0 - sine) / (1.0 + sine)
+    return [f"{said}: degrees? {coefficient:g} deg are {active:.3g}, passive {1.0 / active:.3g} (Rankine)"]
 
 
 def _on_both_sides(model: Model) -> Iterator[str]:

@@ -7,6 +7,7 @@ import pytest
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.magnitudes import questions
+from limitblocks.analysis.magnitudes_of_bridges import of_passive
 
 
 def block():
@@ -46,6 +47,18 @@ def test_weights_that_do_not_act_downwards_are_asked_about(to, factor, asked):
     found = questions(replace(block(), dead=factor * lb.mass_proportional(to)))
     said = "the dead load has the weight of block 'block 1', 1e+04 N, along {}: meant? Down is (0, 0, -1)"
     assert found == [said.format(asked)] * bool(asked)
+
+
+@pytest.mark.parametrize(
+    ("degrees", "said"), [(30, "30 deg are 0.333, passive 3"), (45, "45 deg are 0.172, passive 5.83")]
+)
+def test_an_angle_for_a_coefficient_of_earth_pressure_is_asked_about(degrees, said):
+    """Rankine: tan^2(45 -+ phi/2), 1/3 and 3 of 30 degrees."""
+    asked = f"coefficient of earth pressure is {degrees}: degrees? {said} (Rankine)"
+    dead = lb.self_weight() + lb.loads.fill(18e3, 1.5, earth_pressure=degrees)
+    assert questions(replace(block(), dead=dead)) == of_passive(degrees) == [asked]
+    assert of_passive(17.5) == []  # Caquot and Kerisel, 40 degrees on a rough wall
+    assert of_passive(90) == ["coefficient of earth pressure is 90, more than of any soil"]
 
 
 def test_weights_given_as_forces_are_not_forgotten_where_one_is_left_out():
