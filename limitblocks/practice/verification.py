@@ -31,7 +31,7 @@ from limitblocks.practice.inputs import (
 )
 from limitblocks.practice.moving_masses import STILL, MovingMass, moving_masses
 from limitblocks.practice.spectra import MOST, MOST_DAMPING, Floor, G, Place, Spectrum, ground_acceleration
-from limitblocks.practice.verification_result import MANY, Inequality, Quantity, Verification, steps
+from limitblocks.practice.verification_result import MANY, NO_CURVE, Inequality, Quantity, Verification, steps
 
 SIMPLIFIED = "C8.7.1.2.1.7"
 SHARE = "(sum P dx)^2 / (sum P  sum P dx^2)"
@@ -74,7 +74,7 @@ def verification(
     floor : Floor, optional
         Where the mechanism is not at the ground: its height z by the modes of the building.
     collapse_demand : Spectrum, optional
-        Of the limit state of collapse (SLC); with it and a curve the non-linear check at SLC is made.
+        Of the limit state of collapse (SLC): the non-linear check at SLC is made, `left_out` without a curve.
     damage_demand : Spectrum, optional
         Of the limit state of damage (SLD); with it the mechanism is checked not to set off, [C8.7.1.8].
     damping : (float, float)
@@ -139,7 +139,7 @@ def verification(
         *collapse.remarks,  # type: ignore[attr-defined] # of every state
         *remarks(model, collapse.displacement_rates, confidence),
     )
-    left_out = MANY if curve and others else ""
+    left_out = MANY if curve and others else NO_CURVE if collapse_demand and not curve else ""
     return Verification(tuple(found), tuple(checks), masses, model.digest, said, left_out)
 
 

@@ -88,7 +88,7 @@ class Verification(Result):
     remarks : tuple of str
         What the text asks and the input does not follow.
     left_out : str
-        Why the non-linear checks, though asked for, were not made: no zero, or one mechanism of many.
+        Why non-linear checks, though asked for, were not made: no curve, no zero, or one mechanism of many.
     digest : str
         SHA-256 of the model.
     """
@@ -143,6 +143,9 @@ MANY = (
     "no non-linear check: the mechanism is, or may be, one of many with this alpha0, and d0* would be that "
     "of an arbitrary mix of them; verify each part that moves in a model of its own"
 )
+
+#: Why there is no check at SLC where its spectrum is given by itself.
+NO_CURVE = "no non-linear check at SLC: it needs a capacity curve"
 
 
 def without_curve(found: Verification, ended: str) -> Verification:

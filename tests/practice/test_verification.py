@@ -170,6 +170,18 @@ def test_a_ground_acceleration_that_may_be_in_m_s2_is_asked_about(facade, answer
     assert verification(facade, answer, Spectrum(0.6 * 9.81, 1.2, 2.5, 0.5), q=2.0).remarks == ()
 
 
+def test_a_spectrum_of_slc_without_a_curve_is_no_check_in_silence(facade, answer):
+    """.0908 g/(.9037 x 1.35) = .73 m/s2 is more than .02 g x 1.2/2: all that is checked is satisfied."""
+    site = Spectrum(0.02 * G, 1.2, 2.5, 0.5)
+    found = verification(facade, answer, site, q=2.0, confidence=FC, collapse_demand=site)
+    assert [one.satisfied for one in found.checks] == [True]
+    assert found.left_out == "no non-linear check at SLC: it needs a capacity curve"
+    assert found.left_out in str(found)
+    text = lb.report(facade, answer, found).text
+    assert "not complete" in text
+    assert not verification(facade, answer, site, q=2.0, confidence=FC).left_out
+
+
 def test_scale_of_the_mechanism_does_not_matter(facade, answer):
     """Bounds and the answer without dilatancy have one mechanism here, in one scale or another."""
     found = verification(facade, answer, SITE, q=2.0, confidence=1.0)
