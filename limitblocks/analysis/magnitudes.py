@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -147,6 +148,15 @@ def of_ground(a_g: float) -> list[str]:
         g = a_g / 9.81
         return [f"a_g is {a_g:.3g} m/s2, {g:.3g} g: m/s2? {g:.3g} m/s2 = {g / 9.81:.3g} g"]
     return []
+
+
+def of_limit_states(grounds: Mapping[str, float]) -> list[str]:
+    """Return the questions for ground accelerations, m/s2, of limit states from the frequent to the rare."""
+    return [
+        f"a_g at {rare} is {grounds[rare]:.3g} m/s2, at {often} {grounds[often]:.3g} m/s2, more: exchanged?"
+        for often, rare in pairwise(grounds)
+        if grounds[rare] < grounds[often]
+    ]
 
 
 def _of_loads(model: Model) -> Iterator[str]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from limitblocks.analysis.magnitudes import of_ground
+from limitblocks.analysis.magnitudes import of_ground, of_limit_states
 from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.evidence.interface_states import Collapse, collapse_of
 from limitblocks.mechanics.loads.load import number
@@ -131,8 +131,10 @@ def verification(
         more, non_linear = _non_linear(curve, scales, (demand, collapse_demand), damping, place, set_off)
         found += more
         checks += non_linear
+    states = ("SLD", damage_demand), ("SLV", demand), ("SLC", collapse_demand)
     said = (
         *of_ground(demand.a_g),
+        *of_limit_states({state: one.a_g for state, one in states if one}),
         *unproven(collapse, curve),
         *other_answers(collapse),
         *others,

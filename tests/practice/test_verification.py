@@ -170,6 +170,18 @@ def test_a_ground_acceleration_that_may_be_in_m_s2_is_asked_about(facade, answer
     assert verification(facade, answer, Spectrum(0.6 * 9.81, 1.2, 2.5, 0.5), q=2.0).remarks == ()
 
 
+def test_limit_states_in_another_order_than_their_return_periods_are_asked_about(facade, answer, curve):
+    """NTC 2018, 3.2.1: SLD, SLV and SLC are exceeded in 63, 10 and 5 % of the reference period."""
+    low, high = (Spectrum(a * G, 1.2, 2.5, 0.5) for a in (0.1, 0.4))
+    asked = verification(facade, answer, SITE, q=2.0, damage_demand=high, collapse_demand=low, curve=curve)
+    assert asked.remarks == (
+        "a_g at SLV is 2.45 m/s2, at SLD 3.92 m/s2, more: exchanged?",
+        "a_g at SLC is 0.981 m/s2, at SLV 2.45 m/s2, more: exchanged?",
+    )
+    right = verification(facade, answer, SITE, q=2.0, damage_demand=low, collapse_demand=high, curve=curve)
+    assert right.remarks == ()
+
+
 def test_a_spectrum_of_slc_without_a_curve_is_no_check_in_silence(facade, answer):
     """.0908 g/(.9037 x 1.35) = .73 m/s2 is more than .02 g x 1.2/2: all that is checked is satisfied."""
     site = Spectrum(0.02 * G, 1.2, 2.5, 0.5)
