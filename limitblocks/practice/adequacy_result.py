@@ -77,8 +77,12 @@ class Adequacy(Result):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What to know of the answer that the factor is of."""
-        return self.answer.remarks
+        """What to ask of the factors, and to know of the answer that the adequacy factor is of."""
+        strengths = self.values[2:]  # after both loads
+        raised = dict.fromkeys(one.factor for one in strengths if one.design > one.characteristic)
+        factors = {name: self.factors.value(name) for name in raised}
+        asked = (f"{name} is {k:g}, and raises what it divides: {1 / k:.3g}?" for name, k in factors.items())
+        return *asked, *self.answer.remarks
 
     @property
     def answer(self) -> Nonassociated | Bounds:

@@ -50,6 +50,15 @@ class Nameless:
         return lb.OrdunaLourenco(self.friction, cohesion=self.c).yield_rows(polygons, stress_unit)
 
 
+def test_a_factor_that_raises_friction_is_asked_about():
+    """A block slides at mu: .3 / .8 = .375 by a resistance factor of .8, which multiplies; 1 / .8 = 1.25."""
+    found = adequacy(block(), PartialFactors(1.0, 1.0, 0.8))
+    assert found.factor == pytest.approx(0.375, abs=1e-7)
+    assert found.remarks == ("gamma_M is 0.8, and raises what it divides: 1.25?",)
+    assert found.remarks[0] in lb.report(block(), found).text
+    assert adequacy(block(), PartialFactors(0.9, 0.5, 0.8, gamma_phi=1.0)).remarks == ()  # no strength but mu
+
+
 def test_a_factor_below_one_is_not_told_as_one():
     """A block slides at .3 of its weight; pushed by .3 / .99999995 of it it had "1, LESS than one"."""
     model = block()
