@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 from limitblocks.analysis.magnitudes_of_fills import of_earth_pressure
 from limitblocks.mechanics.loads.fills import Fill
@@ -11,6 +12,8 @@ from limitblocks.shown import coordinate
 
 #: Axle load, N, below which it may be in kN: a bicycle has 500.
 _LIGHT = 1e3
+#: Distance, m, of neighbouring axles beyond which it may be in mm: bogies of a wagon are 25 m apart.
+_APART = 50.0
 #: Levels, m, that are nearer are the same: a message shows no more.
 _SAME = 1e-3
 
@@ -22,11 +25,17 @@ def of_passive(coefficient: float) -> list[str]:
     return of_earth_pressure(coefficient)
 
 
-def of_axles(axles: Sequence[float]) -> list[str]:
-    """Return the question for the axle loads of a vehicle, N."""
+def of_axles(axles: Sequence[float], distances: Sequence[float]) -> list[str]:
+    """Return the questions for the axle loads of a vehicle, N, and for their distances, m."""
+    asked = []
     if (heaviest := max(axles)) < _LIGHT:
-        return [f"the heaviest axle is {heaviest:g} N: kN? {heaviest:g} kN = {1e3 * heaviest:g} N"]
-    return []
+        asked.append(f"the heaviest axle is {heaviest:g} N: kN? {heaviest:g} kN = {1e3 * heaviest:g} N")
+    apart = [abs(b - a) for a, b in pairwise(sorted(distances))]
+    if apart and (least := min(apart)) > _APART:
+        asked.append(
+            f"the axles are {least:g} m or more apart: millimetres? {least:g} mm = {least / 1e3:g} m"
+        )
+    return asked
 
 
 def of_level(model: Model, level: float, what: str) -> list[str]:

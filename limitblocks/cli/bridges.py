@@ -78,7 +78,7 @@ def vehicle(
     """Print the least load factor of a vehicle that moves along the deck, and where it stands."""
 
     def solve(structure: Model, **settings: Any) -> WorstPosition:
-        for question in (*of_axles(loads.axles), *of_level(structure, level, "road")):
+        for question in (*of_axles(loads.axles, loads.distances), *of_level(structure, level, "road")):
             typer.echo(f"warning: {question}", err=True)
         found: WorstPosition = analyses.vehicle(structure, **settings)
         if loaded:

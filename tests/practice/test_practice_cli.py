@@ -288,6 +288,11 @@ def test_vehicle(beam):
     assert found["bounds"]["lower"] == pytest.approx(40e3 / 10e3 / (found["position"] - 3.0), rel=1e-3)
     light = run("vehicle", beam, "--axles", "20", "--level", 0.5, "--first", 3, "--last", 4, "--count", 3)
     assert "warning: the heaviest axle is 20 N: kN? 20 kN = 20000 N" in light.output
+    place = ("--level", 0.5, "--first", 3, "--last", 4, "--count", 3)
+    long = run("vehicle", beam, "--axles", "10e3,10e3", "--distances", "0,1200", *place)
+    assert "warning: the axles are 1200 m or more apart: millimetres? 1200 mm = 1.2 m" in long.stderr
+    wagon = run("vehicle", beam, "--axles", "10e3,10e3", "--distances", "0,25", *place)
+    assert "apart" not in wagon.stderr
     assert "--axles" in run("vehicle", beam, "--axles", "x", "--level", 0.5, "--first", 3, "--last", 4).output
 
 
