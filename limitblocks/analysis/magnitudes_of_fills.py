@@ -24,6 +24,8 @@ _MUCH = 0.1
 HEAVY_FILL = 3e4
 #: Coefficient of earth pressure that may be an angle in degrees: dense sand on a rough wall has 18.
 _ANGLE = 20.0
+#: Height of fill above a structure, m, beyond which it may be in mm: deep culverts have 40.
+_DEEP = 50.0
 #: Cosine from which fill counts as on the other side.
 _TOWARDS = 1e-6
 _ROUNDED = 1e-9  # of the fill on a face: less is missing by rounding
@@ -31,11 +33,13 @@ _ROUNDED = 1e-9  # of the fill on a face: less is missing by rounding
 
 def of_fills(model: Model) -> Iterator[str]:
     """Return what is asked about the fill of a model."""
-    pressures = {
-        term.coefficient for _, term in model.dead.terms + model.live.terms if isinstance(term, Fill)
-    }
-    for coefficient in sorted(pressures):
+    fills = [term for _, term in model.dead.terms + model.live.terms if isinstance(term, Fill)]
+    for coefficient in sorted({fill.coefficient for fill in fills}):
         yield from of_earth_pressure(coefficient)
+    top = max((block.vertices[:, 2].max() for block in model.free_blocks), default=0.0)
+    for level in sorted({fill.level for fill in fills if fill.level > top + _DEEP}):
+        deep = f"{level - top:.4g} m above the structure"
+        yield f"fill up to Z = {coordinate(level)} m is {deep}: millimetres? see units"
     yield from _twice(model)
     yield from _on_both_sides(model)
     yield from of_resisting(model)

@@ -61,6 +61,15 @@ def test_an_angle_for_a_coefficient_of_earth_pressure_is_asked_about(degrees, sa
     assert of_passive(90) == ["coefficient of earth pressure is 90, more than of any soil"]
 
 
+@pytest.mark.parametrize(
+    ("level", "said"), [(301.0, "301 m is 300 m above"), (1500.0, "1500 m is 1499 m above"), (41, "")]
+)
+def test_fill_in_millimetres_is_asked_about(level, said):
+    """On a block 1 m high: 300 mm over it, or up to 1500 mm."""
+    asked = questions(replace(block(), dead=lb.self_weight() + lb.loads.fill(18e3, level)))
+    assert asked == [f"fill up to Z = {said} the structure: millimetres? see units"] * bool(said)
+
+
 def test_weights_given_as_forces_are_not_forgotten_where_one_is_left_out():
     """A block of soil that the load factor moves, say, beside a wall of 20 kN."""
     model = lb.structures.column(lb.PointContact(0.6), count=2, width=1.0, height=1.0)
