@@ -29,4 +29,4 @@ def as_read(made: Section, result: Any) -> Section:
     title = f"{made.title}, as a file says"
     made = replace(made, title=title, values=values, judged=None, rates=None)
     made = replace(made, designs=(), upper=None, compared=())
-    return replace(made, headline="not checked", warnings=(NOT_JUDGED,))
+    return replace(made, headline="not checked", warnings=(NOT_JUDGED, *made.warnings))

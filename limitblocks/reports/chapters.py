@@ -61,7 +61,7 @@ OWN = (
     "It is the answer of the chapter {}. This report has no certified load factor of its model without "
     "dilatancy, and nothing is said about safety beyond what that chapter says."
 )
-JUDGED = "Safety: chapter {}: {} {}."
+JUDGED = "Safety: chapter {}: {}, {}."
 UNCOMPARED = "Safety: the demand {:.15g} is not compared with anything."
 TIED = (("tie-stick", "tie, from anchor to anchor"),)
 VIEWED = (("still", "block that can move"), ("support", "support"))

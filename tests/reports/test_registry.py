@@ -185,6 +185,18 @@ def test_answers_of_practice_are_saved_read_and_shown(word, practised, tmp_path)
         lb.read_result(tmp_path / "result.json", other)
 
 
+def test_a_report_keeps_what_a_verification_of_a_file_asks(tmp_path):
+    """2 m/s2 given as 2 g: 2 / 9.81 = .204."""
+    facade = facades.facade()
+    solved = lb.nonassociated(facade)
+    found = verification(facade, solved, Spectrum(2.0 * 9.81, 1.2, 2.5, 0.5), q=2.0)
+    read = lb.read_result(found.save(tmp_path / "result.json"), facade)
+    for one in (found, read):
+        assert "a_g is 19.6 m/s2, 2 g: m/s2? 2 m/s2 = 0.204 g" in lb.report(facade, solved, one).text
+    said = "Safety: chapter Kinematic verification of the mechanism, as a file says: not checked, least ratio"
+    assert said in " ".join(lb.report(facade, solved, read).text.split())
+
+
 def test_points_of_a_curve_that_was_read_can_be_checked(practised, tmp_path):
     """Each has its displaced structure with it."""
     _, curve = practised["capacity curve"]
