@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import logging
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from inspect import signature
@@ -30,6 +31,8 @@ from limitblocks.studies.pool import (
 )
 from limitblocks.studies.sample_result import SampledStudy
 from limitblocks.studies.samples import Sampler, sampled_values
+
+_log = logging.getLogger("limitblocks")
 
 Row = dict[str, Any]
 AT_ONCE = 64  # rows handed to the processes before the first is written
@@ -69,8 +72,8 @@ def study(
         Which load factor.
     file : path, optional
         A file of JSON lines to which every row is added when it is done. A study that was ended goes on where
-        it stopped; a file of other parameters is refused. A maker that has changed cannot be seen: name a new
-        file.
+        it stopped; a file of other parameters is refused. A maker that now makes another model of the first
+        row is warned of, in the log: name a new file.
     workers : int or None
         Processes; 1 stays in this one, None takes one for each core. Pays where an analysis takes seconds.
     client : dask.distributed.Client, optional
@@ -97,11 +100,9 @@ def study(
     fits("the maker", signature(maker), (), parameters)
     head = _head(parameters, values, sampler, seed, analysis, settings, indices)
     done = _kept(store, head)
-    tasks = [
-        (k, maker, dict(zip(names, row, strict=True)), analysis, settings)
-        for k, row in enumerate(values.tolist())
-        if k not in done
-    ]
+    samples = [dict(zip(names, row, strict=True)) for row in values.tolist()]
+    _ask_of_maker(store, done, maker, samples)
+    tasks = [(k, maker, sample, analysis, settings) for k, sample in enumerate(samples) if k not in done]
     try:
         for row in _answers(tasks, workers, client):
             done[row["row"]] = row
@@ -179,6 +180,27 @@ def _kept(file: Path | None, head: Row) -> dict[int, Row]:
     return rows
 
 
+def _ask_of_maker(
+    file: Path | None,
+    kept: Mapping[int, Row],
+    maker: Callable[..., Model],
+    samples: Sequence[dict[str, float]],
+) -> None:
+    """Log a warning where the maker has changed since a row was kept; no error, as processors differ."""
+    known = next((k for k, row in kept.items() if row.get("model")), None)
+    if known is None:
+        return
+    try:
+        own = maker(**samples[known]).digest
+    except FAILURES:
+        own = ""
+    if own != kept[known]["model"]:
+        _log.warning(
+            "%s: row %d is of another model than the maker makes now; has it changed? A new file begins anew",
+            file, known,
+        )  # fmt: skip
+
+
 def _parsed(line: bytes) -> Any:
     try:
         return json.loads(line)
@@ -218,19 +240,20 @@ def one_row(
     """Return the row of one sample; an error becomes a row."""
     from limitblocks.evidence.interface_states import interface_states
 
+    mode, remarks, digest = "", "", ""
     try:
         model = maker(**values)
     except FAILURES as error:
-        outcome, mode, remarks = failed(error), "", ""
+        outcome = failed(error)
     else:
-        outcome, mode, remarks = analyse(model, analysis, settings), "", ""
+        outcome, digest = analyse(model, analysis, settings), model.digest
         if outcome.result is not None and not outcome.error:
             words = {
                 part for state in interface_states(model, outcome.result).state for part in state.split("-")
             }
             mode, remarks = "-".join(sorted(words - {"stick"})), "; ".join(outcome.result.remarks)
     found = {"row": number, "load_factor": float(outcome.load_factor)}
-    return found | {"mode": mode, "error": outcome.error, "remarks": remarks}
+    return found | {"mode": mode, "error": outcome.error, "remarks": remarks, "model": digest}
 
 
 def _answers(tasks: Sequence[tuple[Any, ...]], workers: int | None, client: Any) -> Iterator[Row]:

@@ -110,6 +110,21 @@ def test_ended_study_goes_on_without_computing_anything_twice(tmp_path, monkeypa
         lb.study(block, ask, 8, file=file)
 
 
+def test_a_maker_that_has_changed_is_warned_of(tmp_path, caplog):
+    """A block of b/h = 1 slides at mu, one of b/h = .1 rocks at .1: rows of one are none of the other."""
+
+    def slender(friction):
+        return lb.structures.block(lb.PointContact(friction), width=0.1, height=1.0)
+
+    file, ask = tmp_path / "study.jsonl", {"friction": (0.2, 0.6)}
+    for _ in range(2):
+        kept = lb.study(block, ask, 4, file=file)
+    assert not caplog.records
+    assert lb.study(slender, ask, 4, file=file).load_factors == pytest.approx(kept.load_factors)
+    (record,) = caplog.records
+    assert "row 0 is of another model than the maker makes now" in record.getMessage()
+
+
 def test_failures_are_rows(tmp_path):
     found = lb.study(falls_where_slippery, {"friction": (0.2, 0.6)}, 8, file=tmp_path / "a.jsonl")
     slippery = found.values[:, 0] < 0.3
