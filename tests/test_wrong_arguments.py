@@ -356,3 +356,9 @@ def test_true_is_no_number(make, said):
 @pytest.mark.parametrize("value", [Decimal("20000"), Fraction(20000), np.float32(2e4), np.int64(20000)])
 def test_numbers_of_any_kind_are_taken(value):
     assert lb.Block.box("a", (1, 1, 1), (0, 0, 0), value).weight == 20e3
+
+
+@pytest.mark.parametrize("ask", [lb.diagnose, lb.bounds, lb.stability])
+def test_a_friction_in_place_of_a_joint_is_named(ask, wall):
+    with pytest.raises(lb.ModelError, match=r"joint is 0\.6, expected a joint such as OrdunaLourenco"):
+        ask(replace(wall, interfaces=lb.find_interfaces(wall.blocks, 0.6)))

@@ -17,6 +17,7 @@ from limitblocks.geometry.accuracy import block_length
 from limitblocks.geometry.distance import distance
 from limitblocks.geometry.polygon import cross, following
 from limitblocks.joints import OrdunaLourenco
+from limitblocks.joints.base import joint_of
 from limitblocks.mechanics.loads.fills import Fill
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, PointForce
 from limitblocks.mechanics.loads.load import Load, some
@@ -55,7 +56,7 @@ _SQUARE, _ASKEW = 1e-4, 1e-2
 
 def questions(model: Model) -> list[str]:
     """Return a question, with what was probably meant, for each number of a model that is hardly meant."""
-    joints = dict.fromkeys(interface.joint for interface in model.interfaces)
+    joints = dict.fromkeys(joint_of(interface) for interface in model.interfaces)
     asked = [*_of_loads(model), *(question for joint in joints for question in _of_joint(joint))]
     for weight in sorted({block.unit_weight for block in model.free_blocks if block.unit_weight}):
         asked += _of_weight(weight)
