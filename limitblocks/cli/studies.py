@@ -83,6 +83,8 @@ def moving(
 
         from limitblocks.studies import moving_load as study
 
+        if load[2] > 0.0:
+            typer.echo(f"warning: the load acts upwards, {load[2]:g} N along Z: -{load[2]:g} N?", err=True)
         _answer(study, model, asked, load, np.linspace(start, end, count))
 
 

@@ -58,6 +58,9 @@ def test_moving_load_is_printed(file):
     factors = [32e3 * 2 * 0.5 / (3e4 * 2 - 1e4 * (0.5 - x)) for x in (-0.5, 0.0, 0.5)]
     for factor in factors:
         assert f"{factor:.4g}" in done.stdout
+    assert done.stderr == ""
+    upwards = run("moving", file, "--load", 0, 0, 1e4, *line)
+    assert "warning: the load acts upwards, 10000 N along Z: -10000 N?" in upwards.stderr
 
 
 @pytest.mark.parametrize(
