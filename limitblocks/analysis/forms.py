@@ -47,17 +47,16 @@ class Stresses:
             "iterative_refinement_enable": False,
         }
 
-    def within(self, loads: Array, most: float = np.inf, room: Array | float = 1.0) -> Program:
-        """Largest room t <= 1 of stresses that carry loads. Variable: t and x.
+    def within(self, loads: Array, most: float = np.inf, room: Array | None = None) -> Program:
+        """Largest t <= 1 of stresses that carry loads with F x + g - t room in K. Variable: t and x.
 
-        Every row has t times the `room` (m,) of its interface, in its unit of force: F x + g - t margin in K.
-        The rows are at most `most` in the mean.
+        The `room` (R,) is the `margin` unless given. The rows are at most `most` in the mean.
         """
         p, s = self.problem, self.problem.C.shape[0]
         v, first = cp.Variable(1 + s), np.eye(1, 1 + s)
         balance = sparse.hstack([sparse.csc_array((len(loads), 1)), p.C.T], format="csr")[self.balanced]
-        margin = p.margin * np.broadcast_to(room, len(p.force))[p.problem.row_interface]
-        rows = sparse.hstack([sparse.csr_array(-margin[:, None]), p.F], format="csr")
+        lost = p.margin if room is None else room
+        rows = sparse.hstack([sparse.csr_array(-lost[:, None]), p.F], format="csr")
         inside = map_in_cone(rows, v, p.cones, p.g if p.g.any() else None)
         bounded = [sparse.csr_array(-first) @ v + np.ones(1) >= 0.0]
         if np.isfinite(most):

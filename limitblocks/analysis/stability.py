@@ -17,7 +17,7 @@ from limitblocks.analysis.one_thread import one_thread
 from limitblocks.analysis.programs import ROUNDS, solved, solvers
 from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved
 from limitblocks.analysis.unstressed import joint_compliance, may_arise, not_held
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import Array, Indices, read_only
 from limitblocks.errors import ModelError, NoEquilibrium, SolverFailure
 from limitblocks.evidence.crushing import ALONE, beyond_stress_block
 from limitblocks.evidence.residuals import TOLERANCE, Residual, Residuals, nearest, static_residuals
@@ -25,7 +25,7 @@ from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import Stability, Standing, arising_residuals, mechanism_residuals
 from limitblocks.known import known
 from limitblocks.model import Model
-from limitblocks.problem import ASSOCIATED, Flow, LimitProblem
+from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, Mode
 from limitblocks.problem.plane import Choice
 
 MOST = 1.0  # of the force of each interface: a structure that can be wedged at will has no largest margin
@@ -119,9 +119,9 @@ def _answer(
 def standing_margin(model: Model, load_factor: float = 0.0) -> float:
     """Return the largest least distance to yield of all states in equilibrium, over the interfaces' forces.
 
-    Over all stresses x in equilibrium with dead + load_factor live, the largest t such that each row of
-    F x + g is at least t inside the cone K, t <= 1, every interface in the largest dead force on a block
-    that it is tied to. A state within the yield surface exists, and the loads stand (static theorem), exactly
+    Over all stresses in equilibrium with dead + load_factor live, the largest t <= 1 by which each yield
+    function can be lowered, that of Eq. (39) too, every interface in the largest dead force on a block that
+    it is tied to. A state within the yield surface exists, and the loads stand (static theorem), exactly
     where t >= 0; below, -t is how much every yield function would have to be widened: what a root finder
     needs, and yes and no do not give.
     Joints without friction carry no shear; where no stresses at all balance the loads, the margin is -1.
@@ -182,15 +182,15 @@ def _dead_load_state(problem: LimitProblem) -> Array:
 
 def _all_states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, Residual]]:
     """States of largest margin found in the plane, judged in the whole problem, and then of the whole."""
-    plane = in_plane(problem, Choice.EVERY)
+    plane, lowered = in_plane(problem, Choice.EVERY), _lowered(problem)
     if plane is not None:
-        for own, _ in _states(plane.problem, load_factor):
+        for own, _ in _states(plane.problem, load_factor, plane.multipliers.T @ lowered):
             x = plane.stresses @ own
             yield x, Residuals(static_residuals(problem, load_factor, x)).worst
-    yield from _states(problem, load_factor)
+    yield from _states(problem, load_factor, lowered)
 
 
-def _states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, Residual]]:
+def _states(problem: LimitProblem, load_factor: float, lowered: Array) -> Iterator[tuple[Array, Residual]]:
     """States of largest margin of one solver after the other, with the worst of their residuals.
 
     Each is found again in the units of the one before. The margin as it is defined comes first, in the forces
@@ -204,7 +204,8 @@ def _states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, 
             if measured is None:
                 break
             loads = (problem.dead + load_factor * problem.live) / measured.equation
-            room = _own_loads(problem) / measured.force if k == 0 else 1.0
+            force = _own_loads(problem) if k == 0 else measured.force
+            room = lowered * force[problem.row_interface] / measured.row
             (v,) = solved(Stresses(measured).within(loads, most, room), solver).values
             x, found = v[1:], np.isfinite(v).all()
             x = measured.stress * (balanced(measured, loads, x) if found else x)
@@ -222,9 +223,26 @@ def _own_loads(problem: LimitProblem) -> Array:
     return np.asarray(np.where(own > 0.0, own / problem.units.interface_force, 1.0))
 
 
+def _crushing(problem: LimitProblem) -> Indices:
+    """First rows of the cones ||(1 - s, 2 N / sqrt(a))|| <= 1 + s of Eq. (39)."""
+    heads = problem.cones.heads
+    return np.asarray(heads[problem.row_mode[heads] == Mode.CRUSH])
+
+
+def _lowered(problem: LimitProblem) -> Array:
+    """What rows lose as the yield functions of each interface are lowered by its unit of force, (R,)."""
+    lost = problem.cones.identity.copy()
+    lost[_crushing(problem) + 1] = -1.0  # s, not 1 + s alone: the 1 is an arbitrary unit
+    return np.asarray(lost / problem.units.row)
+
+
 def _margin(problem: LimitProblem, x: Array) -> float:
     """Least distance to yield over the largest dead force on the blocks tied to the interface."""
-    distance = problem.cones.margin(problem.F @ x + problem.g) * problem.units.row[problem.cones.heads]
+    rows, cones, heads = problem.F @ x + problem.g, problem.cones, _crushing(problem)
+    first, second, across = (rows[heads + k] for k in range(3))
+    distance = cones.margin(rows)
+    distance[cones.member[heads]] = (first - second - across**2 / (first + second)) / 2.0  # s - N^2 / a
+    distance *= problem.units.row[cones.heads]
     return float((distance / _own_loads(problem)[problem.member_interface]).min())
 
 

@@ -60,6 +60,19 @@ def test_margin_is_over_the_dead_force_whatever_the_size(s):
     assert found.margin == pytest.approx((0.4 * W - V) / np.hypot(W, V), rel=1e-9)
 
 
+@pytest.mark.parametrize("crushing_share", [1e-8, 0.05, 0.2])
+@pytest.mark.parametrize("unit_weight", [GAMMA, 0.7 * GAMMA])
+def test_margin_of_a_joint_that_crushes(unit_weight, crushing_share):
+    """s - N^2 / (A fc) of Eq. (39), s = N - 2 M / b, over N: 1 - 2 e / b - N / (A fc), whatever the unit."""
+    blocks = [
+        lb.Block.box("ground", (4, 4, 1), (0, 0, -0.5)),
+        lb.Block.box("stone", (1, 1, 1), (0, 0, 0.5), unit_weight),
+    ]
+    own = model(blocks, ["ground"], lb.OrdunaLourenco(2.5, unit_weight / crushing_share))
+    leaning = replace(own, dead=own.dead + lb.loads.moment("stone", (0, 0.3 * unit_weight, 0)))
+    assert lb.stability(leaning).margin == pytest.approx(0.4 - crushing_share, rel=1e-6)
+
+
 def test_a_slack_tie_is_half_its_strength_from_yield():
     """Of a tension between 0 and c no state is farther than c / 2 from both."""
     own = model([*under_water(1.0, lb.OrdunaLourenco(0.4)).blocks], ["ground"], lb.OrdunaLourenco(0.4))
