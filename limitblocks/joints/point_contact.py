@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.errors import ModelError
 from limitblocks.joints.base import (
     YieldRows,
     checked_choice,
@@ -66,6 +67,8 @@ class PointContact(Queries):
         checked_count("points", self.points, 1)
         checked_choice("cone", self.cone, ("exact", "inner", "outer"))
         checked_count("sides", self.sides, 3)
+        if self.cone == "exact" and self.sides != 8:
+            raise ModelError(f"sides is {self.sides}, but cone='exact' is round; choose 'inner' or 'outer'")
 
     def in_words(self) -> str:
         """Return the joint in words."""

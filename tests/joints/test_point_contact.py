@@ -223,6 +223,7 @@ def test_no_flow_in_stress_resultants():
         ({"friction": 0.6, "points": 0}, "points is 0, expected a whole number of at least 1"),
         ({"friction": 0.6, "cone": "paper"}, "cone is 'paper', expected one of 'exact', 'inner', 'outer'"),
         ({"friction": 0.6, "sides": 2}, "sides is 2"),
+        ({"friction": 0.6, "sides": 12}, "sides is 12, but cone='exact' is round"),
     ],
 )
 def test_bad_settings_are_named(settings, message):
