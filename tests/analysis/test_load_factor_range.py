@@ -20,6 +20,7 @@ from limitblocks.analysis.programs import Solution
 from limitblocks.cli import app
 from limitblocks.evidence.range_answer import Origin
 from limitblocks.evidence.residuals import TOLERANCE
+from limitblocks.practice import dowel, reinforced
 from limitblocks.problem import Flow, State, Turning
 
 FEW = {"paths": 3, "mechanisms": 3}
@@ -236,6 +237,14 @@ def test_exact_programs_end_no_earlier_than_the_certified_answers(monkeypatch):
 def test_exact_programs_are_refused_for_round_friction():
     with pytest.raises(lb.ModelError, match="exact=True needs joints of planes"):
         lb.load_factor_range(structures.block(lb.PointContact(0.3), width=1.0, height=0.5), exact=True)
+
+
+def test_a_dowel_is_named_where_exact_programs_are_refused():
+    """Its strength is the same in all directions, whatever the joints are."""
+    own = structures.block(square(0.3), width=1.0, height=0.5)
+    pin = dowel(own.interfaces[0], own.interfaces[0].centroid.tolist(), diameter=0.02, capacity=1e3)
+    with pytest.raises(lb.ModelError, match="dowels"):
+        lb.load_factor_range(reinforced(own, pin), exact=True)
 
 
 def test_numbers_out_of_range_are_refused():

@@ -105,9 +105,9 @@ def refuse(flow: Flow) -> None:
     """Raise ModelError where no mixed-integer linear program says what the solutions are."""
     if flow.problem.cones.second_order:
         raise ModelError(
-            "exact=True needs joints of planes, and this model has round friction or crushing; use "
-            "PointContact(friction, cone='outer', sides=4), or 'inner': a polygon of friction has other "
-            "solutions without dilatancy, so that the answer is an approximation"
+            "exact=True needs joints of planes, and this model has round friction, crushing or dowels; use "
+            "PointContact(friction, cone='outer', sides=4), or 'inner', and no dowels: a polygon of friction "
+            "has other solutions without dilatancy, so that the answer is an approximation"
         )
     if not flow.constant:
         raise ModelError("exact=True needs turning 'centroid': Table 5 depends on the stresses")
