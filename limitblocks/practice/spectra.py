@@ -202,8 +202,8 @@ class Floor:
 class Place:
     """Where a mechanism is: on the ground or a floor; rigid until set off, or free to vibrate at T_0."""
 
-    floor: Floor | None = None
-    elastic_period: float = 0.0
+    floor: Floor | None
+    elastic_period: float
 
     def acceleration(self, ground: Spectrum) -> float:
         """Return what sets it off, m/s2: a_g S or a_Z [C7.2.8]; the spectrum at T_0 [C8.7.1.9]."""

@@ -24,9 +24,10 @@ def test_displacement_of_a_floor_does_not_fall_beyond_its_first_mode():
     least = floor.acceleration(SITE, 0.5) * (1.1 * 0.5 / (2 * np.pi)) ** 2
     assert floor.displacement(SITE, 0.6) == pytest.approx(least)
     assert floor.acceleration(SITE, 0.6) * (0.6 / (2 * np.pi)) ** 2 < least
-    assert floor.displacement(SITE, 0.5) == pytest.approx(
-        floor.acceleration(SITE, 0.5) * (0.5 / (2 * np.pi)) ** 2
-    )
+    for period in (0.5, 0.53):  # up to b T_1 = .55 s what the spectrum has
+        assert floor.displacement(SITE, period) == pytest.approx(
+            floor.acceleration(SITE, period) * (period / (2 * np.pi)) ** 2
+        )
 
 
 def test_two_modes_add_by_squares():
@@ -67,7 +68,8 @@ def test_floor_spectrum():
     largest = SITE.acceleration(0.4) * 1.3 * 0.8 * np.sqrt(1.01)
     assert floor.largest(SITE) == pytest.approx(largest)
     assert floor.acceleration(SITE, 0.0) == pytest.approx(largest)
-    assert floor.acceleration(SITE, 0.35) == pytest.approx(1.1 * 0.05**-0.5 * largest)
+    for period in (0.35, 0.43):  # between .8 and 1.1 T_k
+        assert floor.acceleration(SITE, period) == pytest.approx(1.1 * 0.05**-0.5 * largest)
     for period in (0.8 * 0.4, 1.1 * 0.4):
         assert floor.acceleration(SITE, period - 1e-9) == pytest.approx(
             floor.acceleration(SITE, period + 1e-9), rel=1e-5

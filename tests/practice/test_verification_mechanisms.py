@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from facades import FC, SITE, G
+from facades import ARM, FC, FLOOR, OWN, SITE, G, H, T
 
 import limitblocks as lb
 from limitblocks.evidence import mechanisms
@@ -36,6 +36,19 @@ def test_terms_that_take_weights_back_are_named(facade):
     model = replace(facade, live=2.0 * push - push)
     with pytest.raises(lb.ModelError, match="weights times -1 among its terms; expected their sum as one"):
         verification(model, lb.nonassociated(model), SITE, q=2.0)
+
+
+def test_a_mass_below_the_toe_moves_against_the_push(facade):
+    """[C8.7.1.1], [C8.7.1.5]: its weight is one of sum P, its delta negative."""
+    weight, low = 4e3, 1.0
+    hung = lb.loads.added_mass("wall", (0, 0, -low), weight=weight)
+    floor = lb.loads.added_mass("wall", (T / 2 - ARM, 0, H), weight=FLOOR)
+    push = lb.mass_proportional((1, 0, 0), [floor, hung])
+    model = replace(facade, dead=lb.self_weight([floor, hung]), live=push)
+    found = verification(model, lb.nonassociated(model), SITE, q=2.0, confidence=FC)
+    P, x, y = np.array([OWN, FLOOR, weight]), np.array([H / 2, H, -low]), np.array([T / 2, ARM, T / 2])
+    assert found["alpha0"] == pytest.approx(P @ y / (P @ x), rel=1e-7)
+    assert found["e*"] == pytest.approx((P @ x) ** 2 / (P.sum() * (P @ x**2)), rel=1e-7)
 
 
 def test_water_in_joints_that_open_is_refused():
