@@ -230,12 +230,11 @@ def test_spectrum_without_q(facade, answer):
     assert "\n" not in str(caught.value)
 
 
-def test_loads_that_are_no_weights(facade, answer):
-    tilted = lb.Model(
-        facade.blocks, facade.supports, facade.interfaces, facade.dead, lb.mass_proportional((1, 0, 1))
-    )
+@pytest.mark.parametrize("other", [lb.mass_proportional((0, 0, 1)), lb.mass_proportional((0, 1, 0))])
+def test_weights_along_several_directions(facade, other):
+    model = replace(facade, live=0.5 * PUSH + 0.5 * other)
     with pytest.raises(lb.ModelError, match="expected one horizontal direction"):
-        verification(tilted, lb.nonassociated(tilted), SITE, q=2.0)
+        verification(model, lb.nonassociated(model), SITE, q=2.0)
 
 
 @pytest.mark.parametrize("share", [0.5, -1.0])

@@ -51,6 +51,12 @@ def test_a_mass_below_the_toe_moves_against_the_push(facade):
     assert found["e*"] == pytest.approx((P @ x) ** 2 / (P.sum() * (P @ x**2)), rel=1e-7)
 
 
+def test_terms_that_make_up_the_weights_count_each_by_its_share(facade):
+    model = replace(facade, live=0.3 * facade.live + 0.7 * facade.live)
+    found = verification(model, lb.nonassociated(model), SITE, q=2.0)
+    assert found["sum P"] == pytest.approx(OWN + FLOOR)
+
+
 def test_water_in_joints_that_open_is_refused():
     wall = lb.structures.wall(lb.PointContact(0.6), length=1.2, courses=4)
     wet = replace(wall, dead=wall.dead + uplift(wall, 0.5))
