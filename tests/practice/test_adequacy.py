@@ -158,6 +158,7 @@ def test_tie_is_divided_and_its_prestress_stays_within(prestress):
     expected = (G * 45e3 * 0.25 + 8e3 * 4.5 / S) / (Q * 45e3 * 2.5)
     assert found.factor == pytest.approx(expected, rel=1e-6)
     assert found.model.interfaces[1].joint == Tie(8e7 / S, 5.75, G * (prestress / 1e-4))
+    assert [one.symbol for one in found.values] == ["G", "Q", "mu", "F"]
     (rod,) = (one for one in found.values if one.unit == "N")
     assert (rod.characteristic, rod.design) == pytest.approx((8e3, 8e3 / S))
 
