@@ -84,8 +84,7 @@ def passive_fill(
         push = -coefficient * weight * float(normal @ d) / float(normal[2])
         if not abs(push) > STEEP * coefficient * weight:
             continue
-        middle = first / weight  # of the resultant about the centroid; where along the deck does not matter
-        at = block.centroid + middle - (middle @ d) * d
+        at = block.centroid + first / weight  # of the resultant, on the face
         passive = coefficient * unit_weight * (level - at[2])  # pressure where the resultant acts
         elements.append(
             Element(
