@@ -137,8 +137,9 @@ class ExactTorsion(Queries):
         Largest at a corner of the four quadrants of a rectangle; sampled on other polygons.
         """
         polygon = interface.polygon
-        corners = np.concatenate([polygon, (polygon + np.roll(polygon, -1, axis=0)) / 2])
-        e = np.concatenate([share * corners for share in np.linspace(0, 1, 21)])
+        share = np.linspace(0.0, 1.0, 101)[:, None, None]
+        boundary = polygon + share * (np.roll(polygon, -1, axis=0) - polygon)
+        e = (share[..., None] * boundary).reshape(-1, 2)
         states = np.column_stack([-np.ones(len(e)), -e[:, 1], e[:, 0]])  # N, M1, M2 of a unit force at e
         top, bottom = (-(states @ bending_planes(polygon, side).T).max(axis=1) for side in ("outer", "inner"))
         whole = torsion_constant(polygon)

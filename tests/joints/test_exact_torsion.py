@@ -133,6 +133,16 @@ def test_bending_error_is_the_number_in_the_docstring():
         assert error == pytest.approx(max(ratio / 2 - T2, 1 / 2 - T1) / c_T, rel=1e-9)
 
 
+def test_bending_error_between_corner_and_mid_side():
+    """A parallelogram hinged at (0, h): inside none, outside Eq. (30) on both boxes is more than T0."""
+    a, s, h = 3.0, 1.0, 1.0
+    corners = [(-a - s, -h), (a - s, -h), (a + s, h), (-a + s, h)]
+    own = lb.joints.interface(corners, lb.joints.ExactTorsion(MU))
+    along, slanted = (a + s) / 2, ((a - s) * h + (a + s) * s) / 2 / np.hypot(s, h)
+    assert min(along, slanted) > torsion_constant(own.polygon)
+    assert own.joint.bending_error(own) == pytest.approx(1.0, rel=1e-9)
+
+
 def test_planes_turn_with_the_rectangle():
     inner, outer = sides(fineness=3)
     e, states = np.array([0.06, -0.03]), []
