@@ -186,6 +186,13 @@ def test_a_plate_and_a_stone_that_leans_over_cover_what_is_below_them():
     assert lb.loads.fill(GAMMA, 3.0, blocks="slab").on([slab, stone])[0, 2] == pytest.approx(-2 * GAMMA * 10)
 
 
+def test_a_stone_that_leans_away_covers_nothing():
+    """Its side goes on from that of the slab, which leans out: above the slab it is beside it."""
+    slab = lb.Block.prism("slab", [(-2, 0), (0.5, 0), (1, 1), (-2, 1)], (-1, 1), 1.0)
+    stone = lb.Block.prism("stone", [(0.5, 0), (1.5, 0), (3, 3), (2, 3)], (-1, 1), 1.0)
+    assert lb.loads.fill(GAMMA, 4.0, blocks="slab").on([slab, stone])[0, 2] == pytest.approx(-3 * GAMMA * 6)
+
+
 def test_what_is_above_the_level_covers_nothing():
     """A storey above, the overhang of the block itself, and a leaning stone above where its underside,
     x + z = 2, meets the level."""

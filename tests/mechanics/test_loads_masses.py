@@ -92,6 +92,15 @@ def test_loads_at_the_tilting_angle_are_at_the_limit():
                 lb.bounds(model)
 
 
+@pytest.mark.parametrize("angle", [0.3, -0.3])
+def test_a_weight_on_a_plane_that_tilts(angle):
+    """W sin t down the plane and W cos t across it."""
+    own = lb.Block.box("block", (B, 1, H), (0, 0, H / 2), W / (B * H))
+    (load,) = lb.loads.tilting((1, 0, 0)).at(angle).on([own])
+    assert load[:3] == pytest.approx(W * np.array([np.sin(angle), 0.0, -np.cos(angle)]))
+    assert (3 * (2 * lb.self_weight())).on([own])[0, 2] == pytest.approx(-6 * W)
+
+
 def test_a_tilting_angle_in_degrees_is_refused():
     tilt = lb.loads.tilting((1, 0, 0))
     with pytest.raises(lb.ModelError, match=r"angle is 30, expected rad .* math\.radians\(30\)"):

@@ -75,6 +75,22 @@ def test_line_load_is_shared_by_length():
     assert load == pytest.approx(expected.on(SLABS), abs=1e-9)
 
 
+@pytest.mark.parametrize(("start", "end"), [((-1.5, 0.1), (1.8, 0.1)), ((0.2, -0.9), (1.9, 0.8))])
+def test_a_line_across_slabs_turned_in_plan_is_that_line_turned(start, end):
+    c, s = np.cos(0.7), np.sin(0.7)
+    turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    slabs = [lb.Block(one.name, one.vertices @ turn.T, one.faces, 1.0) for one in SLABS]
+    load = lb.loads.line_load((0, 0, -1e3), start, end).on(SLABS)
+    again = lb.loads.line_load((0, 0, -1e3), turn[:2, :2] @ start, turn[:2, :2] @ end).on(slabs)
+    assert again == pytest.approx(np.hstack([load[:, :3] @ turn.T, load[:, 3:] @ turn.T]), abs=1e-9)
+
+
+def test_a_line_askew_loads_each_slab_by_its_length_there():
+    """From (.2, -.9) along (1, 1) to (1.9, .8): the upper slab is from (1, -.1) to (1.6, .5)."""
+    load = lb.loads.line_load((0, 0, -1e3), (0.2, -0.9), (1.9, 0.8)).on(SLABS)
+    assert load[:, 2] == pytest.approx(-1e3 * np.sqrt(2) * np.array([0.0, 1.1, 0.6]))
+
+
 @given(st.floats(-4.9, 4.9), st.floats(-4.9, 4.9), st.floats(-0.5, 0.5), st.floats(-0.5, 0.5))
 def test_line_load_on_an_arch_is_the_sum_of_its_parts(x0, x1, y0, y1):
     if abs(x1 - x0) < 0.1:
