@@ -221,6 +221,7 @@ def test_pressure_that_grows_upwards_is_a_difference():
         (lambda: lb.loads.pressure([], 1.0, facing=(1, 0, 0)), "no block"),
         (lambda: lb.loads.pressure("wall", facing=(1, 0, 0)), "zero"),
         (lambda: lb.loads.pressure("wall", facing=(1, 0, 0), unit_weight=1.0), "without a level"),
+        (lambda: lb.loads.pressure("wall", 1.0, facing=(1, 0, 0), level=1.0), "without a unit weight"),
         (
             lambda: lb.loads.pressure("wall", facing=(1, 0, 0), unit_weight=-1.0, level=1.0),
             "unit weight is -1.0",
