@@ -77,6 +77,21 @@ def test_torsion_under_bending_is_between_inner_and_outer(polygon):
     assert (exact <= outer + 1e-6 * size).all()
 
 
+@pytest.mark.parametrize("name", ["hexagon", "triangle", "trapezium", "thin rhombus", "kite", "pentagon"])
+def test_outer_planes_are_eq_30_on_the_bounding_rectangles_along_the_sides(name):
+    """The least half sum of the distances to the nearer bounds, along a side and across it."""
+    polygon = lb.joints.interface(POLYGONS[name], None).polygon
+    e = np.random.default_rng(1).dirichlet(np.full(len(polygon), 0.5), 150) @ polygon
+    boxes = []
+    for side in np.roll(polygon, -1, axis=0) - polygon:
+        ways = np.array([side, [-side[1], side[0]]]) / np.hypot(*side)
+        corners, at = polygon @ ways.T, e @ ways.T
+        boxes.append(np.minimum(corners.max(axis=0) - at, at - corners.min(axis=0)).sum(axis=1) / 2)
+    states = np.column_stack([-np.ones(len(e)), -e[:, 1], e[:, 0]])
+    outer = -(states @ bending_planes(polygon, "outer").T).max(axis=1)
+    assert outer == pytest.approx(np.min(boxes, axis=0), rel=1e-9)
+
+
 def test_rectangle_planes_touch_the_exact_surface():
     """Inner without bending and at the corners; outer without bending and at A, B, C of Table 4."""
     interface = lb.joints.interface(RECTANGLE, None)

@@ -113,7 +113,8 @@ def test_eq_30_is_exact_on_the_hinge_lines_and_above_elsewhere():
 
 def test_beyond_a_hinge_there_is_no_strength():
     for strength in (rectangle_torsion_bending, approximate_torsion_bending):
-        assert strength(L1, L2, MU, N, 1.0001 * L2 * N, 0) == 0
+        for sign in (1.0001, -1.0001):
+            assert strength(L1, L2, MU, N, sign * L2 * N, 0) == strength(L1, L2, MU, N, 0, sign * L1 * N) == 0
     assert torsion_bending(RECTANGLE, MU, N, 1.0001 * L2 * N, 0) == 0
     np.testing.assert_array_equal(effective_half_sides(L1, L2, N, 1.0001 * L2 * N, 0), [0, 0])
 

@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 
 import limitblocks as lb
@@ -95,6 +96,20 @@ def test_patterns_in_vain_are_told():
     assert warning == "material 'x': 'key' picks only blocks of materials before it"
 
 
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"unit_weight": -1.0}, "unit weight is -1.0, expected a finite number >= 0"),
+        ({"unit_weight": np.inf}, "unit weight is inf"),
+        ({"blocks": "wall"}, "blocks are 'wall', expected a list"),
+        ({"blocks": [1]}, r"blocks are \[1\], expected a list"),
+    ],
+)
+def test_wrong_materials_are_told(settings, said):
+    with pytest.raises(lb.ModelError, match=said):
+        Material(**settings)
+
+
 def test_wrong_tables_are_told():
     with pytest.raises(lb.ModelError, match="no material"):
         Materials({})
@@ -107,3 +122,5 @@ def test_wrong_tables_are_told():
         lb.ModelError, match=r"material 'granite' has unit weight 26000 .* 'a' has 20000; leave"
     ):
         TABLE.on(heavy)
+    same, _ = Materials({"x": Material(20e3, GRANITE, ["*"])}).on(heavy)
+    assert {block.unit_weight for block in same} == {20e3}
