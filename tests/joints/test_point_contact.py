@@ -93,6 +93,15 @@ def test_inner_and_outer_enclose_the_cones(sides):
         assert strength == pytest.approx(-MU * N * factor, rel=1e-9)
 
 
+@pytest.mark.parametrize("angle", [0.0, 0.1, np.pi / 16])
+def test_a_force_in_the_cone_grows_without_limit_and_one_beyond_it_to_the_cone(angle):
+    """From N = -1: f mu t = mu (1 + t) is at t = 1 / (f - 1), at none where f <= 1."""
+    interface = lb.joints.interface(SQUARE, lb.PointContact(MU))
+    for f, t in ((0.99, np.inf), (1.0, np.inf), (1.001, 1000.0)):
+        along = (f * MU * np.cos(angle), f * MU * np.sin(angle), -1, 0, 0, 0)
+        assert interface.joint.strength(interface, along, (0, 0, -1, 0, 0, 0)) == pytest.approx(t, rel=1e-6)
+
+
 def test_convexity_scaling_and_the_compression_ray():
     interface, joint = lb.joints.interface(RECTANGLE, None), lb.PointContact(MU)
     directions = np.random.default_rng(5).normal(size=(12, 6)) * [1, 1, 0, 0.1, 0.1, 0.1]
