@@ -78,8 +78,6 @@ def passive_fill(
     )
     free, elements = model.free_blocks, []
     for k, face, weight, first in Fill(unit_weight, level, names, 0.0, *side).on_faces(free):
-        if not weight:
-            continue
         normal, block = free[k].normals[face], free[k]
         push = -coefficient * weight * float(normal @ d) / float(normal[2])
         if not abs(push) > STEEP * coefficient * weight:
