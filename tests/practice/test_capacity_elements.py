@@ -19,6 +19,7 @@ from limitblocks.practice import (
     strip,
     tie,
 )
+from limitblocks.practice.carried_loads import carried_load
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 
@@ -186,3 +187,14 @@ def test_a_strip_across_a_joint_that_slides_does_not_bridge_the_way():
     band = strip(model.interfaces[0], model.interfaces[0].centroid, width=0.1, capacity=2e3)
     found = capacity_curve(reinforced(model, band), steps=2, largest=0.05).load_factors
     assert ((found > 0.2 - 1e-9) & (found < 0.2 * (1 + 2e3 / 8e3) + 1e-9)).all()
+
+
+def test_a_force_at_the_middle_of_a_tie_is_no_prestress_unless_it_is_along_it():
+    """Half a prestress, twice, turns with its tie; a force across it keeps its direction."""
+    before = lb.loads.force("wall", (1e3, 0, 0), (0, 0, 1))
+    after = lb.loads.force("wall", (800, 600, 0), (0, 1, 1))
+    across = lb.loads.force("wall", (300, 0, -400), (0, 0, 1))
+    pulls = [(before.terms[0][1], after.terms[0][1])]
+    load = 2.0 * lb.loads.force("wall", (500, 0, 0), (0, 0, 1)) + 3.0 * across
+    moved = carried_load(load, lambda _, at: np.add(at, (0.1, 0, 0)), pulls)
+    assert moved == after + 3.0 * lb.loads.force("wall", (300, 0, -400), (0.1, 0, 1))
