@@ -234,6 +234,27 @@ def test_exact_programs_end_no_earlier_than_the_certified_answers(monkeypatch):
     assert (found.least.load_factor, found.greatest.load_factor) == found.certified
 
 
+def test_exact_programs_pass_over_solutions_below_zero():
+    """Stone one slides at 0.6; two, pushed aside by W / 4, only if lifted: mu (1 + 2 a) = 1/4 + a / 2."""
+    W, mu = 20e3, 0.5
+    stones = [lb.Block.box("floor", (6.0, 1.0, 0.2), (0, 0, -0.1))]
+    stones += [
+        lb.Block.box(name, (1.0, 1.0, 0.4), (x, 0, 0.2), W / 0.4) for name, x in (("one", -1.5), ("two", 1.5))
+    ]
+    dead = lb.self_weight() + lb.loads.force("two", (W / 4, 0, 0), at=(1.5, 0, 0))
+    live = lb.loads.force("one", (W * mu / 0.6, 0, 0), at=(-1.5, 0, 0))
+    live += lb.loads.force("two", (W / 2, 0, -2 * W), at=(1.5, 0, 0))
+    model = lb.Model(stones, ["floor"], lb.find_interfaces(stones, square(mu)), dead, live)
+    task = _task(model, *flow_of(model, 0.0, Turning.CENTROID), None)
+    search.drawn(task, 20, 0, np.inf)
+    unit = task.flow.problem.units.live
+    assert task.collected.least.state.load_factor / unit == pytest.approx((1 / 4 - mu) / (2 * mu - 1 / 2))
+    for sense in (1.0, -1.0):
+        found = search.extreme(task, sense, 60.0)
+        assert found.proven
+        assert found.load_factor == pytest.approx(0.6)
+
+
 def test_exact_programs_are_refused_for_round_friction():
     with pytest.raises(lb.ModelError, match="exact=True needs joints of planes"):
         lb.load_factor_range(structures.block(lb.PointContact(0.3), width=1.0, height=0.5), exact=True)

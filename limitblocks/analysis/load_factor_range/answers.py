@@ -48,6 +48,7 @@ class Collected:
     endless: bool
     found: list[Certified] = field(default_factory=list)
     least: Certified | None = None
+    least_within: Certified | None = None  # the limits: a mechanism drawn at random may lie below them
     greatest: Certified | None = None
     intervals: list[tuple[float, float]] = field(default_factory=list)
     beyond: Certified | None = None
@@ -99,6 +100,10 @@ class Collected:
             self.least = new
         if self.greatest is None or value > self.greatest.state.load_factor:
             self.greatest = new
+        if value < self.limits[0] - TOLERANCE * self.scale:
+            return
+        if self.least_within is None or value < self.least_within.state.load_factor:
+            self.least_within = new
 
     def all(self, known: float = np.nan) -> list[Certified]:
         """Distinct states, by load factor; an end where it is farther than any, and than the one `known`."""

@@ -152,7 +152,9 @@ def extreme(task: Task, sense: float, time_limit: float) -> Extreme:
     high = high + room if np.isfinite(high) else task.collected.limits[1]
     state, bound, stresses, multipliers, seconds = exact_extreme(task.flow, (low, high), sense, time_limit)
     task.collected.add(state, "mixed-integer program", Origin.SEARCHED, keep=False)
-    one = task.collected.least if sense > 0.0 else task.collected.greatest
+    one = task.collected.least_within  # none: all are below zero, the greatest too
+    if one is not None and sense < 0.0:
+        one = task.collected.greatest
     best = answer(task.model, task.flow, task.enclosing, task.permanent, one) if one else None
     if sense > 0.0:
         bound = max(bound, low)  # where time ran out first
