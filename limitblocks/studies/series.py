@@ -62,7 +62,7 @@ def directions(
     """
     checked_model(model)
     given = (
-        compass(int(directions))
+        compass(directions)
         if isinstance(directions, int | np.integer)
         else _table(directions, 3, "directions")
     )

@@ -1,4 +1,4 @@
-"""A stone in a groove of 60 degrees, pushed across it: it slides up at tan(60 + phi), or jams from phi = 30 on."""
+"""A stone in a groove of 60 degrees, pushed across: it slides up at tan(60 + phi), or jams from 30 on."""
 
 import numpy as np
 import pytest

@@ -127,7 +127,7 @@ def test_live_load_that_cannot_be_turned():
     assert series.load_factors == pytest.approx(sides, rel=1e-6)
 
 
-@pytest.mark.parametrize("wrong", [[(1, 0)], [], [(0, 0, 0)], [(np.nan, 0, 0)], "north", 0])
+@pytest.mark.parametrize("wrong", [[(1, 0)], [], [(0, 0, 0)], [(np.nan, 0, 0)], "north", 0, True])
 def test_wrong_directions_are_refused(wrong):
     with pytest.raises(lb.ModelError):
         studies.directions(block(), wrong)

@@ -32,7 +32,7 @@ from limitblocks.analysis.nonassociated.ways import Half, first_to_solve, no_hal
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.arrays import Array
 from limitblocks.choices import Method, method_of
-from limitblocks.errors import UnlimitedLoad
+from limitblocks.errors import ModelError, UnlimitedLoad
 from limitblocks.evidence.backward_error import checked_limit, settled, within
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.evidence.results import Iteration, Nonassociated
@@ -118,6 +118,10 @@ def nonassociated(
     way = method_of(method)
     limit = checked_limit(backward_error)
     number(tolerance, "tolerance", "", above=0.0)
+    if means is not None and way is Method.FIXED_POINT:
+        raise ModelError(
+            "means are paths to follow; method='fixed point' follows none, leave one of both out"
+        )
     means = MEANS if means is None else checked_means(means) or MEANS
     flow, enclosing = flow_of(model, dilatancy, turning)
     refuse_jammed(enclosing)

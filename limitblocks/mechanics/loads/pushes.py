@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from limitblocks.mechanics.loads.load import Load, unit_vector, vector
 from limitblocks.shown import coordinates
 
 
-def compass(count: int, *, vertical: bool = False) -> Array:
+def compass(count: int | np.integer[Any], *, vertical: bool = False) -> Array:
     """Return `count` unit vectors equally spaced in plan, from +X towards +Y, shape (n, 3).
 
     With `vertical`, +Z and -Z follow.
