@@ -1,6 +1,7 @@
 """The models that the non-associated analysis is measured on: structures, joints, frictions and pushes."""
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import limitblocks as lb
 from limitblocks import structures
@@ -28,6 +29,24 @@ LARGE = {
     ),
     "wall 1008": lambda joint: structures.wall(joint, length=12.8, courses=31),
     "wall 2000": lambda joint: structures.wall(joint, length=18.4, courses=43),
+}
+
+ODD = (0.9553, 0.2955, 0.0)  # .3 rad off X: across no plane of symmetry, nor along one
+ASKEW = {
+    "corner 49": lambda joint: structures.corner(joint, length=3.2, return_length=2.4, courses=7),
+    "tower 100": lambda joint: structures.tower(joint, length=2.4, width=2.4, courses=10),
+    "groin vault 92": lambda joint: structures.groin_vault(
+        joint, radius=3.0, thickness=0.4, length=7.0, courses=13, stone_length=1.1
+    ),
+    "pavilion vault 77": lambda joint: structures.pavilion_vault(
+        joint, radius=3.0, thickness=0.4, courses=11, stone_length=0.9
+    ),
+    **{
+        f"dome {courses * stones + 1}": partial(
+            structures.dome, radius=3.0, thickness=0.4, courses=courses, stones=stones
+        )
+        for courses, stones in ((5, 9), (5, 11), (6, 9), (6, 11), (7, 13), (7, 14))
+    },
 }
 
 
@@ -122,6 +141,14 @@ def held_out(quick):
             model = structures.EXAMPLES[name](joint)
             for push, direction in DIRECTIONS.items():
                 yield Case(name, joint, push, replace(model, live=lb.mass_proportional(direction)))
+
+
+def askew(quick):
+    """Vaults, a tower and a corner of 46 to 100 blocks, pushed where they have no plane of symmetry."""
+    for friction in (0.6,) if quick else (0.6, 0.8):
+        for joint in (lb.OrdunaLourenco(friction), lb.PointContact(friction)):
+            for name, build in ASKEW.items():
+                yield Case(name, joint, "askew", replace(build(joint), live=lb.mass_proportional(ODD)))
 
 
 def large(_quick, only=""):

@@ -16,6 +16,7 @@ from limitblocks.analysis.nonassociated.means import (
     LARGEST_MEANS,
     MEANS,
     REDUCED_MEANS,
+    SPATIAL_MEANS,
     TURNED_MEANS,
     TURNED_SOFTENING,
     Means,
@@ -103,7 +104,9 @@ def own_means(blocks: int, in_space: bool, dissipative: bool, reduced: bool) -> 
         return LARGEST_MEANS if blocks > LARGEST and not reduced else LARGE_MEANS
     if not in_space and blocks > LARGE_IN_PLANE:
         return LARGE_PLANAR_MEANS
-    return REDUCED_MEANS if reduced else MEANS
+    if reduced:
+        return REDUCED_MEANS
+    return SPATIAL_MEANS if in_space and dissipative else MEANS
 
 
 def _in_space(flow: Flow) -> bool:
