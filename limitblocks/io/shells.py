@@ -164,7 +164,16 @@ def _by_order(points: Array, loops: Faces) -> tuple[list[list[int]], list[bool]]
         seen[rim] = k
     between.append(list(range(begin, len(loops))))
     between = _put_to(runs, between, loops)
+    runs = _once(runs, loops)
     return [*runs, *between], [True] * len(runs) + [False] * len(between)
+
+
+def _once(runs: list[list[int]], loops: Faces) -> list[list[int]]:
+    """Return the runs, those with the same faces as one: a solid whose faces are all drawn twice."""
+    same: dict[frozenset[frozenset[int]], list[int]] = {}
+    for run in runs:
+        same.setdefault(frozenset(frozenset(loops[f]) for f in run), []).extend(run)
+    return list(same.values())
 
 
 def _flat(points: Array, loops: Faces) -> bool:

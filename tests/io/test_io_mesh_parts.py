@@ -209,3 +209,22 @@ def test_an_open_stone_is_named_by_itself(suffix, which, tmp_path):
     found = lb.files.read_blocks(path, up="z", skip_bad=True)
     heights = [block.centroid[2] for block in found.blocks]
     assert heights == pytest.approx([0.5 * k + 0.25 for k in range(5) if k != which])
+
+
+@pytest.mark.parametrize("suffix", ["obj", "ply"])
+def test_a_solid_whose_faces_are_all_drawn_twice_is_one(tmp_path, suffix):
+    path = tmp_path / f"twice.{suffix}"
+    corners, faces = BOX.vertices.tolist(), 2 * [list(face) for face in BOX.faces]
+    if suffix == "obj":
+        rows = [f"v {x} {y} {z}" for x, y, z in corners]
+        rows += ["f " + " ".join(str(k + 1) for k in face) for face in faces]
+    else:
+        rows = ["ply", "format ascii 1.0", f"element vertex {len(corners)}"]
+        rows += [f"property float {axis}" for axis in "xyz"]
+        rows += [f"element face {len(faces)}", "property list uchar int vertex_indices", "end_header"]
+        rows += [" ".join(map(str, corner)) for corner in corners]
+        rows += [" ".join(map(str, (len(face), *face))) for face in faces]
+    path.write_text("\n".join(rows) + "\n")
+    read = lb.files.read_blocks(path)
+    assert [block.volume for block in read.blocks] == pytest.approx([1.0 * 2.0 * 3.0])
+    assert any("6 of 12 faces repeat another one" in note for note in read.notes)
