@@ -118,7 +118,7 @@ def tilted(boxes: Boxes, up: str) -> str:
     this, other = "XYZ"[a], "XYZ"[b]
     if _on_side(boxes, a, b):
         return f"the blocks whose names say support are at the bottom along {other}, not along {this}"
-    if len(boxes.low) < _FEWEST:
+    if len(boxes.low) < _FEWEST or _stand(boxes, a, b):
         return ""
     ground, carried = _shares(boxes, a)
     ground_b, carried_b = _shares(boxes, b)
@@ -157,6 +157,11 @@ def _on_side(boxes: Boxes, a: int, b: int) -> bool:
         return False
     told = len(boxes.low) >= _FEWEST and not _at_bottom(boxes, a, _UPPER)
     return told or _shares(boxes, a)[1] >= _ALL
+
+
+def _stand(boxes: Boxes, a: int, b: int) -> bool:
+    """Return whether all supports are in the lower half along `a`, and some above it along `b`."""
+    return bool(boxes.support.any()) and _at_bottom(boxes, a, _UPPER) and not _at_bottom(boxes, b, _UPPER)
 
 
 def _at_bottom(boxes: Boxes, axis: int, share: float = 1.0 / 3.0) -> bool:

@@ -100,6 +100,21 @@ def test_supports_as_long_as_a_vault_and_few_blocks_tell_the_axis_up(name, said,
         assert ("seems to lie on its side: the supports are at the bottom along Y" in caplog.text) == asked
 
 
+@pytest.mark.parametrize("layer", ["support", "springers"])
+def test_a_flat_vault_on_marked_supports_along_all_its_length_has_z_up(layer, tmp_path):
+    """Its voussoirs hang over nothing, and its rings would stand on each other with Y up."""
+    size = (1.0, 0.5, 0.3)
+    blocks = [
+        lb.Block.box(f"b{k} {n}", size, (k, 0.5 * n, 0.1 * k * (4 - k))).labelled(
+            layer="vault" if 0 < k < 4 else layer
+        )
+        for k in range(5)
+        for n in range(4)
+    ]
+    guessed = lb.files.read_blocks(lb.files.write_blocks(blocks, tmp_path / "vault.obj")).guesses
+    assert len(guessed) == (layer != "support")
+
+
 @pytest.mark.parametrize("low", [[0.8], [2.0, 2.3]])
 def test_stones_that_jut_out_of_a_wall_have_z_up(low, tmp_path, caplog):
     """Nothing is below the lowest of them, also where the wall is as high as all."""
