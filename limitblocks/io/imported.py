@@ -147,7 +147,7 @@ def imported(
     blocks = tuple(block.labelled(unit_weight=weights[block.name]) for block in found.blocks)
     notes = (*contents.notes, *found.notes, *left_out(found.wrong))
     gone = (*found.wrong, *contents.left_out)
-    return ImportedBlocks(blocks, notes, found.supports, where.warnings, gone)
+    return ImportedBlocks(blocks, notes, found.supports, (*where.warnings, *found.warnings), gone)
 
 
 def blocks_of(contents: Contents, where: Frame, twisted: Twisted | None = None) -> Made:
@@ -159,7 +159,8 @@ def blocks_of(contents: Contents, where: Frame, twisted: Twisted | None = None) 
     wrong = dict(contents.wrong)
     for name, lines in found.wrong.items():
         wrong[name] = [*wrong.get(name, ()), *lines]
-    return Made(found.blocks, (*renamed, *found.notes), wrong, supports, found.twisted)
+    lost = tuple(name for name in wrong if name in named and _is_support(named[name]))
+    return Made(found.blocks, (*renamed, *found.notes), wrong, supports, found.twisted, lost)
 
 
 def _is_support(solid: Solid) -> bool:

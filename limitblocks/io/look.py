@@ -179,7 +179,7 @@ def look(
             _up(contents, where, up),
             marked=made.supports,
             wrong=tuple(line for lines in made.wrong.values() for line in lines),
-            warnings=where.warnings,
+            warnings=(*where.warnings, *made.warnings),
             notes=(*contents.notes, *made.notes),
         )
 

@@ -9,7 +9,7 @@ from typing import NamedTuple, get_args
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.errors import GeometryError, ModelError
+from limitblocks.errors import GeometryError, ModelError, few
 from limitblocks.geometry import Block
 from limitblocks.geometry.accuracy import Accuracy, block_length, millimetres
 from limitblocks.geometry.block import WORDS
@@ -26,7 +26,8 @@ _TWIST = 4.0
 class Made(NamedTuple):
     """Blocks, what was mended, what is wrong with solids that are none, by name, and which are supports.
 
-    `twisted` is the number of solids whose fault is that faces are twisted.
+    `twisted` is the number of solids whose fault is that faces are twisted, `lost` names supports among the
+    solids that are no blocks.
     """
 
     blocks: tuple[Block, ...]
@@ -34,6 +35,15 @@ class Made(NamedTuple):
     wrong: dict[str, Sequence[str]]
     supports: tuple[str, ...] = ()
     twisted: int = 0
+    lost: tuple[str, ...] = ()
+
+    @property
+    def warnings(self) -> list[str]:
+        """The line that says which supports are no blocks; none where all are."""
+        return [
+            f"the file marks as supports what is no block: {few(self.lost)}; mend it, or draw a solid below "
+            "the plane: what stands on it is without its support"
+        ] * bool(self.lost)
 
 
 _Mended = tuple[Block, tuple[str, ...]]

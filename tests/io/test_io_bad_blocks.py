@@ -1,5 +1,6 @@
 """One bad block does not refuse the others: twisted faces, open shells, what was left out."""
 
+import json
 import re
 from itertools import pairwise
 
@@ -46,6 +47,20 @@ def test_an_open_footing_can_be_left_out_and_is_named_later(tmp_path):
     assert any(note.startswith("left out: block 'footing'") for note in found.notes)
     with pytest.raises(lb.ModelError, match=r"left out when the file was read: footing; .* import it again"):
         lb.read(file, joint=JOINT, supports="b", live=PUSH, skip_bad=True)
+
+
+def test_a_support_that_is_no_block_is_told_as_such(tmp_path):
+    """The ground as one plane, as in many files of COMPAS: without it the lowest stone is free or fixed."""
+    _, corners, faces = box("a", (0, 0, 0.5))
+    plane = {"vertices": [[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]], "faces": [[0, 1, 2, 3]]}
+    stone = {"vertices": corners.tolist(), "faces": [list(face) for face in faces]}
+    file = tmp_path / "stack.json"
+    file.write_text(json.dumps({"supports": {"ground": plane}, "stones": {"a": stone}}))
+    said = "the file marks as supports what is no block: ground;"
+    assert any(said in line for line in lb.files.look(file).warnings)
+    found = lb.files.read_blocks(file, skip_bad=True)
+    assert any(said in line for line in found.guesses)
+    assert found.supports == ()
 
 
 def test_a_file_of_bad_blocks_alone_is_refused_with_the_first_twenty(tmp_path):
