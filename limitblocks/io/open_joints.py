@@ -7,16 +7,19 @@ from typing import Any
 
 import numpy as np
 
-from limitblocks.arrays import tied
+from limitblocks.arrays import Array, tied
 from limitblocks.errors import ModelError, few
 from limitblocks.geometry import Block, Contacts, Interface, find_contacts
 from limitblocks.geometry.accuracy import millimetres
+from limitblocks.geometry.distance import beside
 from limitblocks.geometry.ends import ends_of
 from limitblocks.model import Model
 from limitblocks.shown import many
 
 #: Gaps, in block lengths, that are tried where blocks have no interface.
 _WIDER = (0.01, 0.02, 0.05, 0.1)
+#: Cosine of the angle within which a face is that of an interface: above that of any tolerance.
+_FACING = 0.7
 
 
 def open_joints(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
@@ -67,10 +70,19 @@ def _open_beds(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
 
 
 def _distance(interfaces: Sequence[Interface], blocks: Sequence[Block]) -> float:
-    """Return the median distance, m, across interfaces, as of convex blocks."""
-    points = {block.name: block.vertices for block in blocks}
-    apart = [
-        (points[one.block_j] @ one.axes[2]).min() - (points[one.block_i] @ one.axes[2]).max()
+    """Return the median distance, m, between the two faces that interfaces are of."""
+    named = {block.name: block for block in blocks}
+    beyond = [
+        _beyond(named[one.block_i], one.axes[2], one.centroid)
+        + _beyond(named[one.block_j], -one.axes[2], one.centroid)
         for one in interfaces
     ]
-    return float(np.median(apart))
+    return -float(np.median(beyond))
+
+
+def _beyond(block: Block, normal: Array, point: Array) -> float:
+    """Return how far beyond `point` along `normal` the face nearest to it is that looks there, m."""
+    faces = np.flatnonzero(block.normals @ normal > _FACING)
+    heights = block.offsets[faces] - block.normals[faces] @ point
+    away = np.hypot(heights, [beside(block, k, point) for k in faces.tolist()])
+    return float(heights[away.argmin()])

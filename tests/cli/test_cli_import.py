@@ -85,6 +85,19 @@ def test_joints_drawn_open_are_told_with_the_option(tmp_path):
     assert run(file, *OPTIONS, "--supports", "base", "--gap", "0.05").exit_code == 0
 
 
+def test_the_width_of_an_open_joint_in_a_notch_is_that_between_its_faces(tmp_path):
+    """A stone 0.1 m high, 10 mm above the floor of a channel 0.5 m deep: beside it, the channel is higher."""
+    outline = [(-1, 0), (1, 0), (1, 1), (0.5, 1), (0.5, 0.5), (-0.5, 0.5), (-0.5, 1), (-1, 1)]
+    stones = [
+        lb.Block.prism("channel", outline, (0.0, 1.0)),
+        lb.Block.box("stone", (0.6, 1.0, 0.1), (0.0, 0.5, 0.51 + 0.05)),
+    ]
+    file = lb.files.write_blocks(stones, tmp_path / "notch.obj")
+    refused = run(file, *OPTIONS, "--supports", "channel")
+    assert refused.exit_code == 2
+    assert "are the joints drawn open? They are typically 10 mm wide" in refused.stderr
+
+
 def test_one_bed_drawn_open_is_told_with_the_option(tmp_path):
     """Two piles that touch within, 20 mm apart: nothing is isolated, the upper one floats."""
     stones = [lb.Block.box("base", (2, 1, 1), (0, 0, -0.5))]
