@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shlex
 from typing import TYPE_CHECKING, cast
 
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from limitblocks.io.look import Look, SeenBlock
 
 _MOST_ROWS = 24
+#: The gap with which no overlap is left.
+_TOUCHING = re.compile(r"overlap, by up to .*--gap ([^,]+),")
 
 
 def look(
@@ -101,18 +104,26 @@ def _next(
     thickness: float | None,
     layers: list[str],
 ) -> str:
-    """Return the command that makes a model of the file, with numbers to be put right by the user."""
+    """Return the command that makes a model of the file, with numbers to be put right by the user.
+
+    Where twisted faces are what is wrong with most solids that are no blocks, it looks once more.
+    """
     if seen.format == "limitblocks model":
         return f"limitblocks info {shlex.quote(seen.file)}"
-    words = ["limitblocks", "import", seen.file]
+    bent = not twisted and 2 * sum("twisted faces" in one for one in seen.faults) > len(seen.faults)
+    words = ["limitblocks", "look" if bent else "import", seen.file]
     for option, given, known in (("--units", units, seen.units), ("--up", up, seen.up)):
         stated, _, source = known.partition(", ")
         words += [option, stated.lower()] if given or source.startswith("guessed") else []
     words += ["--twisted", twisted] if twisted else []
+    if bent:
+        return shlex.join([*words, "--twisted", "triangulate"])
     words += ["--thickness", f"{thickness:g}"] if thickness else []
     words += [part for layer in layers for part in ("--layers", layer)]
     words += ["--skip-bad"] if seen.faults else []
     words += ["--heal"] if any("--heal" in one for one in seen.warnings) else []  # refused without it
+    touching = [found[1] for one in seen.warnings if (found := _TOUCHING.search(one))]
+    words += ["--gap", touching[0]] if touching else []  # as above
     if not seen.marked_supports:
         chosen = seen.likely_supports[0].chosen_by if seen.likely_supports else ("NAME",)
         words += [part for one in chosen for part in ("--supports", one)]

@@ -1,6 +1,7 @@
 """`look`, supports and materials on the command line, and a stranger's way from a drawing to a report."""
 
 import json
+import shlex
 
 import numpy as np
 import pytest
@@ -177,6 +178,32 @@ def test_stones_drawn_into_one_another_are_not_joints_drawn_open(tmp_path):
     said = run("look", lb.files.write_blocks(stones, tmp_path / "deep.obj")).stdout
     assert "the blocks typically overlap by 1 mm" in said
     assert "drawn open" not in said
+
+
+def test_the_next_command_takes_as_touching_what_the_gap_told_does(tmp_path):
+    """Stones 1 mm into the one below, where .6 mm counts as touching: the command works as it stands."""
+    stones = [lb.Block.box("base", (3, 1, 0.2), (0, 0, -0.1))]
+    stones += [lb.Block.box(f"{k}", (1, 0.5, 0.5), (0, 0, 0.25 - 0.001 + 0.499 * k)) for k in range(2)]
+    said = run("look", lb.files.write_blocks(stones, tmp_path / "deep.obj")).stdout
+    _, *words = shlex.split(said.rpartition("Next: ")[2])
+    assert "model 'deep': 2 blocks, 1 support, 2 interfaces" in run(*words).stdout
+
+
+def test_the_next_command_divides_twisted_faces_rather_than_leaving_stones_out(tmp_path):
+    """One corner of 4 stones of 5 is 0.1 m out of its faces: all 5 are in the model, and not the 1 alone."""
+    stones = [lb.Block.box(f"b{k}", (1.0, 1.0, 1.0), (2.0 * k, 0.0, 0.5)) for k in range(5)]
+    rows = []
+    for k, stone in enumerate(stones):
+        corners = stone.vertices + 0.1 * (k > 0) * np.eye(8)[7][:, None] * [0.0, 0.0, 1.0]
+        rows += [f"o b{k}", *(f"v {x} {y} {z}" for x, y, z in corners.tolist())]
+        rows += ["f " + " ".join(str(8 * k + v + 1) for v in face) for face in stone.faces]
+    file = tmp_path / "bent.obj"
+    file.write_text("\n".join(rows))
+    _, *words = shlex.split(run("look", file).stdout.rpartition("Next: ")[2])
+    assert words[-2:] == ["--twisted", "triangulate"]
+    said = run(*words).stdout
+    assert len(json.loads(run(*words, "--json").stdout)["blocks"]) == 5
+    assert "--skip-bad" not in said
 
 
 def test_healing_what_tells_no_accuracy_says_what_to_do(tmp_path):
