@@ -152,11 +152,20 @@ def find_contacts(
 
 
 def nearly_tied(blocks: Sequence[Block], loose: set[str], used: Tolerances | None) -> str:
-    """Return the nearest miss between loose blocks and others, as a clause; empty where there is none."""
+    """Return the nearest miss between loose blocks and others, as a clause; empty where there is none.
+
+    Where its faces are too far from parallel, the clause gives the tolerances that take it as touching.
+    """
     asked = {key: getattr(used, key, None) for key in ("gap", "angle", "width")}
-    near = find_contacts(blocks, None, **asked).near_misses
-    across = [one for one in near if (one.block_i in loose) != (one.block_j in loose)]
-    return f"; nearly touching: {min(across, key=lambda one: abs(one.gap))}" if across else ""
+    found = find_contacts(blocks, None, **asked)
+    across = [one for one in found.near_misses if (one.block_i in loose) != (one.block_j in loose)]
+    if not across:
+        return ""
+    nearest = min(across, key=lambda one: abs(one.gap))
+    angle, gap = 1.1 * nearest.angle, 1.1 * abs(nearest.gap) / found.length
+    wider = [f"--angle {angle:.2g}"] + [f"--gap {gap:.2g}"] * (gap > found.tolerances.gap)
+    remedy = f", which import {' '.join(wider)} takes as touching"
+    return f"; nearly touching: {nearest}{remedy * (nearest.angle > found.tolerances.angle)}"
 
 
 def _checked(blocks: Sequence[Block], joint: object) -> tuple[Block, ...]:

@@ -210,6 +210,18 @@ def test_a_block_that_floats_for_a_narrow_gap_says_which(apart, said):
     assert said in str(error.value)
 
 
+def test_a_block_that_floats_for_a_tilt_says_which_angle_ties_it():
+    """A stone 0.04 m wide, tilted by 0.02 rad about an edge: 0.8 mm off, where 1 mm counts as touching."""
+    turn = np.array([[np.cos(0.02), 0, np.sin(0.02)], [0, 1, 0], [-np.sin(0.02), 0, np.cos(0.02)]])
+    corner = np.array([-0.5, 0.0, 1.0])
+    stone = box("stone", (0.04, 0.04, 0.04), (-0.02, 0, 0.02), 20e3).moved(turn, corner)
+    stones = [*BLOCKS, stone]
+    with pytest.raises(lb.ModelError, match=r"left\|stone \(gap .* 0.02 rad.*--angle 0.022 takes") as error:
+        model_of(stones, find_interfaces(stones, lb.PointContact(0.6)))
+    assert "--gap" not in str(error.value)
+    model_of(stones, find_interfaces(stones, lb.PointContact(0.6), angle=0.022))
+
+
 def test_what_is_between_supports_is_left_out():
     blocks = [
         *BLOCKS,
