@@ -35,6 +35,7 @@ _CANDIDATES = {"cm": 0.01, "mm": 0.001}  # metres per unit
 _MOST_PAIRS = 1_000_000  # of blocks one above the other, of which a share is looked at beyond
 _FEWEST = 4  # blocks that tell which way is up where no support is named
 _ALL, _MOST, _HALF = 0.98, 0.9, 0.5
+_ENOUGH = 1.5  # shares on the ground and carried: all of a wall lies there, half of a table stands
 _LOWER, _UPPER = 0.49, 0.51  # of the height: between is the middle of a support as long as the structure
 
 
@@ -123,7 +124,7 @@ def tilted(boxes: Boxes, up: str) -> str:
     ground, carried = _shares(boxes, a)
     ground_b, carried_b = _shares(boxes, b)
     n = len(boxes.low)
-    if ground >= _HALF and ground_b <= ground / 2.0 and carried_b >= _HALF:
+    if ground >= _HALF and ground_b <= ground / 2.0 and ground + carried_b >= _ENOUGH:
         return (
             f"{round(ground * n)} of {many(n, 'block')} would lie on the ground with {this} up, "
             f"{round(ground_b * n)} with {other} up"

@@ -100,6 +100,14 @@ def test_supports_as_long_as_a_vault_and_few_blocks_tell_the_axis_up(name, said,
         assert ("seems to lie on its side: the supports are at the bottom along Y" in caplog.text) == asked
 
 
+def test_a_table_on_three_legs_stands_with_z_up(tmp_path):
+    """Half of its stones, the legs in a row, are on the ground; with Y up the slab would hang in the air."""
+    blocks = [lb.Block.box(f"b{k}", (1.0, 1.2, 1.0), (0.0, 1.22 * k, 0.5)) for k in range(3)]
+    blocks += [lb.Block.box("b3", (1.0, 3.2, 0.5), (0.0, 1.22, 1.25))]
+    blocks += [lb.Block.box(f"b{k}", (0.8, 0.5, 0.5), (0.0, k - 3.5, 1.75)) for k in (4, 5)]
+    assert lb.files.read_blocks(lb.files.write_blocks(blocks, tmp_path / "table.obj")).guesses == ()
+
+
 @pytest.mark.parametrize("layer", ["support", "springers"])
 def test_a_flat_vault_on_marked_supports_along_all_its_length_has_z_up(layer, tmp_path):
     """Its voussoirs hang over nothing, and its rings would stand on each other with Y up."""
