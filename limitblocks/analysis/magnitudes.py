@@ -101,13 +101,13 @@ def _of_place(corners: Array, size: float) -> list[str]:
 
 
 def _of_axes(interfaces: Sequence[Interface]) -> Iterator[str]:
-    """Return the question for each rectangle, given by hand, whose axes are not along its sides."""
+    """Return the question for each rectangle, given by hand, whose axes are along none of its sides."""
     quads = [one for one in interfaces if isinstance(one.joint, OrdunaLourenco) and len(one.polygon) == 4]
     polygons = np.array([one.polygon for one in quads]).reshape(-1, 4, 2)
     side = following(polygons) - polygons
     side /= np.linalg.norm(side, axis=2, keepdims=True)
     square = cross(side, following(side)).min(axis=1) > 1.0 - _SQUARE
-    off = np.arccos(np.minimum(np.abs(side).max(axis=2).min(axis=1), 1.0))
+    off = np.arccos(np.minimum(np.abs(side).max(axis=(1, 2)), 1.0))
     for k in np.flatnonzero(square & (off > _ASKEW)).tolist():
         yield (
             f"interface {quads[k].name}: its axes are {off[k]:.2g} rad off the sides of its rectangle, along "
