@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _MOST_ROWS = 24
 #: The gap with which no overlap is left.
-_TOUCHING = re.compile(r"overlap, by up to .*--gap ([^,]+),")
+_TOUCHING = re.compile(r"overlap(?:, by up to| by) .*--gap ([^,]+),")
 
 
 def look(

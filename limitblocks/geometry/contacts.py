@@ -92,7 +92,8 @@ class Contacts(Shown):
         if overlap.tolerance < self.tolerances.gap * self.length:
             return ", half the thickness of the thinner one; draw them apart, or as one"
         gap = self._gap_for(overlap)
-        return "; draw them apart" + (f", or give gap={gap:.2g} (block lengths)" if gap else "")
+        option = f"--gap {gap:.2g}, " * (len(self.overlaps) == 1)  # else in the line of all
+        return "; draw them apart" + (f", or give gap={gap:.2g} ({option}block lengths)" if gap else "")
 
     def _gap_for(self, overlap: Overlap) -> float:
         """Return the gap that takes two blocks as touching that overlap; zero where none should."""
