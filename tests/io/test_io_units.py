@@ -168,7 +168,7 @@ def test_explicit_interfaces_and_vertices_are_converted(tmp_path):
 
 def test_every_number_of_every_joint_and_load_has_a_unit():
     """A field that is not a name, a word or a truth must be in the table, or files in mm go wrong."""
-    words = {"block", "block_i", "block_j", "blocks", "slip", "side", "cone"}
+    words = {"block", "block_i", "block_j", "blocks", "slip", "side", "cone", "slides"}
     for cls in (*JOINTS.values(), *TERMS.values()):
         assert {field.name for field in fields(cls) if field.init} - words <= set(DIMENSIONS), cls
 
