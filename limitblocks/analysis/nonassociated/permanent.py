@@ -17,7 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from limitblocks.analysis.nonassociated.least_norm import least_state
-from limitblocks.analysis.unstressed import arising, elastic_displacements, in_rounds, joint_compliance
+from limitblocks.analysis.unstressed import at_once, elastic_displacements, in_rounds, joint_compliance
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import Residuals, static_residuals
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
@@ -26,10 +26,6 @@ from limitblocks.known import known
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 
 DILATES = 1e-6  # of the elastic energy: from 1e-4 on where stresses change, up to 1e-10 elsewhere
-# Barrier to begin with: steps of Newton's method from it find what arises in all of 93 models of the gallery
-# that yield, in two thirds of the time of a path
-FIRST = 1e-5
-LEFT = 1e-9  # of the barrier: stresses are off by at most 1e-3 of the largest
 ADMISSIBLE = 1e-8  # residual of equilibrium and yield
 
 
@@ -66,7 +62,7 @@ def _found(flow: Flow, weights: Array) -> tuple[Array | None, bool]:
         least = least_state(p, weights)
         if least is not None and not _dilates(flow, weights, least):
             return least.x, True
-    found = arising(flow, joint_compliance(p, weights, u), FIRST, LEFT, along_path=False)
+    found = at_once(flow, joint_compliance(p, weights, u))
     if found is not None and _admissible(p, found.x):
         return found.x, True
     found = least_state(p, weights)
