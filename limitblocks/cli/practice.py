@@ -28,7 +28,20 @@ Direction = Annotated[Any, vector("--direction", names="X,Y,Z", help="Of its mot
 ToCollapse = Annotated[
     bool, typer.Option("--until-collapse", help="Let it settle until the structure falls.")
 ]
-Farthest = Annotated[float, typer.Option(help="Settlement at which the curve ends, m.", min=0.0)]
+Farthest = Annotated[
+    float | None,
+    typer.Option(help="Settlement at which the curve ends, m [default: the size of the structure].", min=0.0),
+]
+Longest = Annotated[
+    float | None,
+    typer.Option("--step", help="Largest step, m [default: .01 of the size of the structure].", min=0.0),
+]
+Nearness = Annotated[
+    float | None,
+    typer.Option(
+        "--accuracy", help="Of the settlement at which it falls, m [default: 1e-6 of the size].", min=0.0
+    ),
+]
 Steps = Annotated[int, typer.Option(help="Points to the zero that the slope foretells.", min=2)]
 Block = Annotated[
     str, typer.Option("--block", help="Block whose displacement is measured [default: the fastest].")
@@ -83,18 +96,23 @@ def settle(
     model: ModelFile,
     support: Support,
     direction: Direction = (0.0, 0.0, -1.0),
+    associated: Associated = False,
     until_collapse: ToCollapse = False,
-    largest: Farthest = float("inf"),
+    largest: Farthest = None,
+    step: Longest = None,
+    accuracy: Nearness = None,
     animation: Animation = None,
     kept: Kept = NOTHING,
 ) -> None:
     """Print the least reaction of supports that give way, and how far the structure follows it."""
     with clean_errors():
         solve = analyses.settlement_to_collapse if until_collapse else analyses.settlement
-        way: Any = {"support": support, "direction": direction}
-        if animation and not until_collapse:
-            raise typer.BadParameter("give --until-collapse, too", param_hint="--animation")
-        way |= {"largest": largest, "animation": animation} if until_collapse else {}
+        way: Any = {"largest": largest, "step": step, "accuracy": accuracy, "animation": animation}
+        way = {name: value for name, value in way.items() if value is not None}
+        if way and not until_collapse:
+            hint = ", ".join(f"--{name}" for name in way)
+            raise typer.BadParameter("give --until-collapse, too", param_hint=hint)
+        way |= {"support": support, "direction": direction, "without_dilatancy": not associated}
         answer(solve, model, kept, **way)
 
 

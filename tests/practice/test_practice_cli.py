@@ -4,7 +4,9 @@ import json
 from dataclasses import replace
 
 import facades
+import numpy as np
 import pytest
+from settling_blocks import beam_on
 from stones import model_of
 from typer.testing import CliRunner
 
@@ -69,6 +71,26 @@ def test_settle_until_collapse(tmp_path):
     assert found["points"][-1]["displacement"] == pytest.approx(0.01)
     assert found["ended"] == "the settlement 0.01 m is reached"
     assert "the settlement 0.01 m is reached" in run(*way, "--largest", 0.01).stdout
+
+
+def test_settle_takes_step_accuracy_and_flow(tmp_path):
+    """A beam whose bearing of .2 m slides away, in steps of .04 m, falls within the accuracy."""
+    beam = beam_on({"left": (-2.0, -1.6), "right": (1.6, 3.0)}, (-2.0, 1.8), lb.PointContact(0.1))
+    way = ("settle", beam.save(tmp_path / "m.json"), "--support", "right", "--direction", 1, 0, 0)
+    done = run(*way, "--until-collapse", "--step", 0.04, "--accuracy", 0.005, "--json")
+    assert done.exit_code == 0, done.output
+    found = json.loads(done.stdout)
+    at = [point["displacement"] for point in found["points"]]
+    assert at[-1] == pytest.approx(0.2, abs=0.005 + 1e-9)
+    assert 0.0 < found["falls"] - at[-1] <= 0.005
+    assert max(np.diff(at)) == pytest.approx(0.04)
+    bounded = json.loads(run(*way, "--associated", "--json").stdout)
+    lifted = json.loads(run(*way, "--associated", "--until-collapse", "--largest", 0.01, "--json").stdout)
+    for one in (bounded, *(point["found"] for point in lifted["points"])):
+        assert (one["nonassociated"], one["result"]) == (None, None)
+    wrong = run(*way, "--largest", 0.1, "--step", 0.04)
+    assert (wrong.exit_code, wrong.stdout) == (2, "")
+    assert "Invalid value for --largest, --step: give --until-collapse, too" in wrong.output
 
 
 def test_capacity(block, tmp_path):
