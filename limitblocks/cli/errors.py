@@ -104,6 +104,9 @@ def refuse_existing(file: Path | None, force: bool, *others: Path | None, option
     """
     if file is None:
         return
+    if str(file) == "-":
+        said = "expected a file, not the standard output; commands that have --json print their answer there"
+        raise LimitBlocksError(f"{option} -: {said}")
     if any(file.resolve() == other.resolve() for other in others if other):
         raise LimitBlocksError(f"{file} is what the command reads or writes, too; name another with {option}")
     if not os.path.isdir(file.parent):

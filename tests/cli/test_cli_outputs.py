@@ -34,6 +34,22 @@ def test_a_file_that_cannot_be_written_is_refused_before_the_analysis(
     assert (done.exit_code, f"folder {tmp_path} may not be written to: no" in done.stderr) == (2, True)
 
 
+def test_a_file_named_minus_is_not_the_standard_output(solver, file, tmp_path, monkeypatch):
+    """A file of that name was written, which `rm` takes for an option; a pipe behind it got the table."""
+    solver(_asked_in_vain)
+    monkeypatch.chdir(tmp_path)
+    there = sorted(tmp_path.iterdir())
+    for option, *words in (
+        ("--output", "nonassociated", file),
+        ("--output", "new", "block", "--width", 1, "--height", 2, "--friction", 0.6),
+        ("--csv", "study", "directions", file),
+    ):
+        done = run(*words, option, "-", "--force")
+        assert done.exit_code == 2
+        assert f"error: {option} -: expected a file, not the standard output" in done.stderr
+    assert sorted(tmp_path.iterdir()) == there
+
+
 def test_one_file_for_the_result_and_its_report_is_refused(solver, file, tmp_path):
     """The report took the place of the result without a word."""
     solver(_asked_in_vain)
