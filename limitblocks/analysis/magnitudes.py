@@ -88,6 +88,14 @@ def of_size(size: float) -> list[str]:
     return []
 
 
+def of_dimensions(dimensions: Mapping[str, float]) -> list[str]:
+    """Return the question for the largest of the dimensions, m, that a structure is to be made of."""
+    name = max(dimensions, key=dimensions.__getitem__, default="")
+    if not name or dimensions[name] <= _LARGE:
+        return []
+    return [f"{name} is {dimensions[name]:g} m: millimetres? then {dimensions[name] / 1e3:g} m; see units"]
+
+
 def _of_place(corners: Array, size: float) -> list[str]:
     """Return the question for a structure so far from the origin that rounding changes its shape."""
     far = float(np.abs(corners).max())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
@@ -62,6 +62,7 @@ def command(make: Callable[..., Any]) -> Callable[..., None]:
             joint = make_joint(values["joint"], values["friction"], **options)
             file = values["output"] or Path(f"{make.__name__}.json")
             refuse_existing(file, values["force"])
+            _ask_before(given)
             with of_stages(f"making {make.__name__}"):
                 model = make(joint=joint, **given)
             ask(model)
@@ -72,6 +73,19 @@ def command(make: Callable[..., Any]) -> Callable[..., None]:
     run.__signature__ = inspect.Signature(list(parameters.values()))  # type: ignore[attr-defined]
     run.__annotations__ = {name: parameter.annotation for name, parameter in parameters.items()}
     return run
+
+
+def _ask_before(given: Mapping[str, Any]) -> None:
+    """Ask about dimensions in mm, of which a structure of many blocks takes minutes to make."""
+    from limitblocks.analysis.magnitudes import of_dimensions
+
+    lengths = {
+        f"--{name.replace('_', '-')}": value
+        for name, value in given.items()
+        if isinstance(value, float) and name != "unit_weight"  # angles are refused where they are so large
+    }
+    for question in of_dimensions(lengths):
+        typer.echo(f"warning: {question}", err=True)
 
 
 def left_out(make: Callable[..., Any]) -> list[str]:

@@ -1,15 +1,17 @@
 """`limitblocks new`: every generator, its parameters as options, what it writes and what it refuses."""
 
+import functools
 import inspect
 import re
 
 import pytest
+import typer
 import typer.main
 from typer.testing import CliRunner
 
 import limitblocks as lb
 from limitblocks import cli
-from limitblocks.cli.new import generators, left_out, parameter_texts
+from limitblocks.cli.new import command, generators, left_out, parameter_texts
 
 WALL = ("wall", "--length", 1.2, "--courses", 4, "--friction", 0.6)
 
@@ -86,6 +88,24 @@ def test_a_friction_in_degrees_is_asked_about():
     done = run("wall", "--length", 2, "--courses", 2, "--friction", 35)
     assert done.exit_code == 0
     assert done.stderr == "warning: friction is 35: degrees? tan 35 deg = 0.7\n"
+
+
+def test_dimensions_in_mm_are_asked_about_before_the_structure_is_made():
+    """3200 mm given as 3200 m were a minute of work before any question."""
+    made = []
+
+    @functools.wraps(lb.structures.tower)
+    def make(**given):
+        made.append(given)
+        raise lb.ModelError("made")
+
+    app = typer.Typer()
+    app.command()(command(make))
+    for length, asked in (("3200", "--length is 3200 m: millimetres? then 3.2 m; see units"), ("3.2", "")):
+        size = ["--length", length, "--width", "3.2", "--courses", "9", "--unit-weight", "20000"]
+        done = CliRunner().invoke(app, [*size, "--friction", "0.6"])
+        assert done.stderr == f"warning: {asked}\n" * bool(asked) + "error: made\n"
+    assert [given["length"] for given in made] == [3200.0, 3.2]
 
 
 def test_nothing_is_overwritten_unless_asked():
