@@ -61,6 +61,9 @@ Confidence = Annotated[float, typer.Option("--confidence", help="Confidence fact
 Linear = Annotated[bool, typer.Option("--linear", help="The linear check alone, without a capacity curve.")]
 Collapse = Annotated[str, typer.Option("--slc", help="A_G/g,S,F0,T_C of SLC, such as .3,1.2,2.5,.5.")]
 Damage = Annotated[str, typer.Option("--sld", help="A_G/g,S,F0,T_C of SLD: is the mechanism set off?")]
+Damping = Annotated[
+    str, typer.Option("--damping", help="Of the mechanism at SLV,SLC as ratios [default: .08,.10].")
+]
 Modes = Annotated[
     list[str] | None,
     typer.Option(
@@ -147,6 +150,7 @@ def verify(
     linear: Linear = False,
     collapse: Collapse = "",
     damage: Damage = "",
+    damping: Damping = "",
     modes: Modes = None,
     elastic_period: ElasticPeriod = 0.0,
     drawn: SavedCurve = None,
@@ -166,6 +170,7 @@ def verify(
         demands: dict[str, Any] = {"collapse_demand": _spectrum("--slc", collapse)}
         demands |= {"damage_demand": _spectrum("--sld", damage), "floor": _floor(modes or [])}
         demands |= {"elastic_period": elastic_period}
+        demands |= {"damping": _counted("--damping", damping, "SLV,SLC")} if damping else {}
         solved = analyses.nonassociated(structure)
         verified = partial(
             verification, structure, solved, site, q=behaviour, confidence=confidence, **demands
@@ -187,8 +192,9 @@ def verify(
         from limitblocks.practice.spectra import G
         from limitblocks.practice.verification_result import without_curve
 
-        if drawn and linear:
-            raise typer.BadParameter("give one of both", param_hint="--curve, --linear")
+        for option, given in (("--curve", drawn), ("--damping", damping)):
+            if given and linear:
+                raise typer.BadParameter("give one of both", param_hint=f"{option}, --linear")
         refuse_existing(kept.output, kept.force, drawn)
         refuse_existing(kept.filed, kept.force, drawn, option="--report")
         found = answer(solve, model, kept, beside)

@@ -187,6 +187,21 @@ def test_verify_takes_a_curve_that_was_kept(block, tmp_path, monkeypatch):
     assert "give one of both" in run("verify", block, *site, "--curve", kept, "--linear").stderr
 
 
+def test_verify_takes_another_damping(block, tmp_path):
+    """The ground acceleration that it bears at SLC goes with (5 + xi in %)^.5; 10 % is usual."""
+    site = ("--a-g", 0.25, "--soil", 1.2, "--f0", 2.5, "--t-c", 0.5, "--q", 2, "--slc", ".3,1.2,2.5,.5")
+    kept = tmp_path / "curve.json"
+    assert run("capacity", block, "-o", kept).exit_code == 0
+    usual, damped = (
+        json.loads(run("verify", block, *site, "--curve", kept, "--json", *more).stdout)["checks"][2]
+        for more in ((), ("--damping", ".08,.12"))
+    )
+    assert damped["capacity"] == pytest.approx((17 / 15) ** 0.5 * usual["capacity"], rel=1e-9)
+    wrong = run("verify", block, *site, "--curve", kept, "--damping", 5)
+    assert (wrong.exit_code, "expected SLV,SLC" in wrong.output) == (2, True)
+    assert "--damping, --linear" in run("verify", block, *site, "--linear", "--damping", ".05,.1").output
+
+
 def test_verify_refuses_a_slip_before_it_draws_a_curve(block, monkeypatch):
     """A curve may take minutes, and what is wrong was said after it."""
     monkeypatch.setattr("limitblocks.cli.analyses.capacity", lambda _: pytest.fail("a curve was drawn"))
