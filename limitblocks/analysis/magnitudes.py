@@ -190,6 +190,12 @@ def _of_forces(model: Model, size: float) -> Iterator[str]:
     """What is asked about forces and masses on the blocks of a structure of this size, m."""
     blocks = {block.name: block for block in model.blocks}
     gap = (model.tolerances or Tolerances()).gap * block_length(model.blocks)
+    tied = {  # the prestress of a tie acts half way between its anchors, in whatever block is there
+        (name, tuple(own.centroid.tolist()))
+        for own in model.interfaces
+        if getattr(own.joint, "prestress", 0.0)
+        for name in (own.block_i, own.block_j)
+    }
     for load, word in ((model.dead, "dead"), (model.live, "live")):
         for factor, term in load.terms:
             if not isinstance(term, AddedMass | PointForce):
@@ -207,7 +213,7 @@ def _of_forces(model: Model, size: float) -> Iterator[str]:
             if (away := float(np.linalg.norm(arm))) > size:
                 whole = f"the structure is {size:.4g} m large"
                 yield f"{on}: that is {away:.4g} m off the centroid of the block, {whole}; see units"
-            elif there := _other_block(term, blocks, gap):
+            elif (term.block, term.at) not in tied and (there := _other_block(term, blocks, gap)):
                 yield f"{on}: that is in block {there!r}"
             elif isinstance(term, PointForce) and away > _ASTRAY * block.size:
                 yield f"{on}: that is {away:.4g} m off the centroid of the block, {block.size:.4g} m large"

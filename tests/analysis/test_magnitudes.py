@@ -273,6 +273,13 @@ def test_an_anchor_off_its_block_in_a_file_is_asked_about():
     assert "tie block 1|base: its anchor at (0, 0, 2) is 1 m off block 'block 1'" in said
 
 
+def test_a_prestress_that_passes_through_other_blocks_is_not_asked_about():
+    """A rod of 20 kN from the fourth block into the first one: half way between its anchors is the second."""
+    model = lb.structures.column(lb.PointContact(0.6), count=4, width=1.0, height=1.0)
+    rod = tie("block 4", (0, 0.5, 3.5), "block 1", (0, 0.5, 0.3), area=1e-4, strength=235e6, prestress=20e3)
+    assert questions(reinforced(model, rod)) == []
+
+
 @pytest.mark.parametrize("factor", [0.9, 1.35])
 def test_a_prestress_that_is_not_that_of_the_dead_loads_is_asked_about(factor):
     """The tie keeps the rest of its strength, whatever pulls; a partial factor changes both."""
