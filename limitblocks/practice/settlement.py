@@ -11,7 +11,7 @@ import numpy as np
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.arrays import Array
-from limitblocks.errors import UnlimitedLoad
+from limitblocks.errors import NotConverged, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
@@ -23,6 +23,10 @@ JAMMED = (
     "or stones between what settles and another support press against both, however hard; check the "
     "direction, that in which the ground moves, such as 0,0,-1 for one that sinks, and what else holds "
     "those stones"
+)
+BOUNDED = (
+    "the load here is the pull of what settles; with dilatancy its least reaction is {:.6g} to {:.6g} N, and "
+    "without_dilatancy=False, on the command line --associated, gives that alone"
 )
 OFF = 1e-6  # of the motion along the line: more than rounding
 
@@ -133,13 +137,19 @@ def settlement(
         pair = bounds(own.model)
     except UnlimitedLoad as error:
         raise UnlimitedLoad(JAMMED.format(own.named)) from error
-    result = nonassociated(own.model) if without_dilatancy else None
-    if any(_leaves_its_line(own, answer.displacement_rates) for answer in (pair, result) if answer):
-        raise UnlimitedLoad(JAMMED.format(own.named))
+    _refuse_off_its_line(own, pair.displacement_rates)
+    lower, upper = own.reaction(pair.upper), own.reaction(pair.lower)
+    try:
+        result = nonassociated(own.model) if without_dilatancy else None
+    except NotConverged as error:
+        error.add_note(BOUNDED.format(lower, upper))
+        raise
+    if result:
+        _refuse_off_its_line(own, result.displacement_rates)
     return Settlement(
         settling=own,
-        lower=own.reaction(pair.upper),
-        upper=own.reaction(pair.lower),
+        lower=lower,
+        upper=upper,
         nonassociated=own.reaction(result.load_factor) if result else None,
         bounds=pair,
         result=result,
@@ -147,10 +157,11 @@ def settlement(
     )
 
 
-def _leaves_its_line(own: Settling, rates: Array) -> bool:
-    """True if a guide yields: its strength, not of the structure, limits what nothing else does."""
+def _refuse_off_its_line(own: Settling, rates: Array) -> None:
+    """UnlimitedLoad if a guide yields: its strength, not of the structure, limits what nothing else does."""
     places = {block.name: k for k, block in enumerate(own.model.blocks)}
     along = float(rates[places[own.supports[0]], :3] @ own.direction)
     off = rates[[places[name] for name in own.supports]] - np.append(along * own.direction, np.zeros(3))
     off[:, 3:] *= np.array([own.model.blocks[places[name]].size for name in own.supports])[:, None]
-    return bool(np.abs(off).max() > OFF * abs(along))
+    if np.abs(off).max() > OFF * abs(along):
+        raise UnlimitedLoad(JAMMED.format(own.named))

@@ -1,6 +1,7 @@
 """Several supports that settle as one body: the closed forms of one support, levers, misuse."""
 
 import json
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -89,6 +90,19 @@ def test_several_until_collapse():
     assert way.ended.split(" at ")[0] == one.ended.split(" at ")[0]
     assert way.points[0].found.upper == pytest.approx(one.points[0].found.upper, rel=1e-6)
     assert str(way).startswith("'r1', 'r2' settle from a reaction of")
+
+
+def test_what_is_known_where_the_answer_without_dilatancy_does_not_converge(monkeypatch):
+    """The bounds were lost, and what the message calls the live load was none of the user's."""
+
+    def stuck(model):
+        raise lb.errors.NotConverged("stuck", lb.nonassociated(model))
+
+    monkeypatch.setattr(sys.modules[settlement.__module__], "nonassociated", stuck)
+    with pytest.raises(lb.errors.NotConverged, match="stuck") as caught:
+        settlement(PIER, ["near", "far"], DOWN)
+    note = f"with dilatancy its least reaction is {LEAST:.6g} to {LEAST:.6g} N, and without_dilatancy=False"
+    assert note in caught.value.__notes__[0]
 
 
 @pytest.mark.parametrize(
