@@ -16,6 +16,7 @@ from limitblocks.analysis.nonassociated.means import (
     LARGEST_MEANS,
     MEANS,
     REDUCED_MEANS,
+    SPATIAL_MEANS,
     SOFTENING,
     Means,
 )
@@ -222,7 +223,7 @@ def test_a_large_wall_in_its_plane_has_a_larger_barrier_and_rounds_before_increm
 @pytest.mark.parametrize(
     ("blocks", "in_space", "reduced", "means"),
     [
-        (100, True, False, MEANS),
+        (100, True, False, SPATIAL_MEANS),
         (101, True, False, LARGE_MEANS),
         (100, True, True, REDUCED_MEANS),
         (300, True, False, LARGE_MEANS),

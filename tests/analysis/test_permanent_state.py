@@ -187,7 +187,7 @@ def test_where_only_self_stress_holds_a_block_the_permanent_state_is_that_of_lea
 
 def test_plane_models_whose_least_state_does_not_dilate_take_no_path(monkeypatch):
     """Multipliers of joints of this arch that carry nothing dilate: no normal force works on that."""
-    monkeypatch.setattr(permanent, "arising", None)
+    monkeypatch.setattr(permanent, "at_once", None)
     problem = lb.structures.arch(
         lb.PointContact(0.7, cone="inner"), radius=1.0, thickness=0.3, voussoirs=9
     ).problem
