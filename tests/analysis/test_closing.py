@@ -16,8 +16,8 @@ from limitblocks.analysis.nonassociated.means import (
     LARGEST_MEANS,
     MEANS,
     REDUCED_MEANS,
-    SPATIAL_MEANS,
     SOFTENING,
+    SPATIAL_MEANS,
     Means,
 )
 from limitblocks.analysis.nonassociated.path_equations import Barrier
