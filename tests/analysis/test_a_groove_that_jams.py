@@ -40,3 +40,17 @@ def test_a_range_of_what_jams_has_no_load_path():
     found = lb.load_factor_range(groove(lb.PointContact(1.1 * JAMS)), paths=2, mechanisms=0)
     assert found.load_path is None
     assert not found.answers
+
+
+@pytest.mark.parametrize("calls", [100, 400])
+def test_who_interrupts_is_told_no_end_of_the_load(calls):
+    """In the plane, and in the whole structure after its increments in the plane have climbed."""
+    told = []
+
+    def stop(now):
+        told.append(now)
+        if len(told) == calls:
+            raise KeyboardInterrupt
+
+    with pytest.raises(lb.NotConverged, match=r"^interrupted"):
+        lb.nonassociated(groove(lb.PointContact(1.1 * JAMS)), progress=stop)

@@ -147,8 +147,8 @@ def found_in_plane_or_whole(
 
     state, how = solve(flow, start_stresses(model, flow, weights, start), half)
     solved = mcp_residuals(flow, state).worst.value <= tolerance
-    if climbs and not solved and CLIMBING not in how:  # as the increments of the plane do
-        how = f"{how}, {CLIMBING}"
+    if climbs and not solved and CLIMBING not in how and not how.endswith(INTERRUPTED):
+        how = f"{how}, {CLIMBING}"  # as the increments of the plane do
     return state, how
 
 
