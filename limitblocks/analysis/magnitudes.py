@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from limitblocks.analysis.magnitudes_of_fills import HEAVY_FILL, of_fills
+from limitblocks.analysis.magnitudes_of_size import of_place, of_size
 from limitblocks.analysis.magnitudes_of_ties import of_ties
 from limitblocks.analysis.magnitudes_of_weight import of_weights
-from limitblocks.arrays import Array
 from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.geometry.accuracy import block_length
 from limitblocks.geometry.distance import distance
@@ -46,10 +46,6 @@ _FAINT, _FAINT_SHARE = 1e2, 1e-2
 _ASTRAY = 3.0
 #: Share of the median volume below which a block may be debris.
 _DEBRIS = 1e-4
-#: Sizes of a structure, m, beyond which the unit of length may be another one.
-_LARGE, _SMALL = 3e2, 5e-2
-#: Rounding of coordinates, of the size of a structure, beyond which load factors may be off by 1e-6.
-_ROUGH = 1e-7
 #: Sine, below 1, of a right angle, and angle, rad, of axes that are off the sides of a rectangle.
 _SQUARE, _ASKEW = 1e-4, 1e-2
 
@@ -70,42 +66,13 @@ def questions(model: Model) -> list[str]:
         *of_ties(model),
         *_of_axes(model.interfaces),
         *of_size(size),
-        *_of_place(corners, size),
+        *of_place(corners, size),
     ]
 
 
 def weightless(model: Model) -> list[str]:
     """Return the names of the free blocks that weigh nothing."""
     return [block.name for block in model.free_blocks if not block.unit_weight]
-
-
-def of_size(size: float) -> list[str]:
-    """Return the question for the largest dimension of a structure, m."""
-    if size > _LARGE:
-        return [f"the structure is {size:.4g} m large: millimetres? then {size / 1e3:.4g} m; see units"]
-    if size < _SMALL:
-        return [f"the structure is {size:.4g} m large: is it in metres? see units"]
-    return []
-
-
-def of_dimensions(dimensions: Mapping[str, float]) -> list[str]:
-    """Return the question for the largest of the dimensions, m, that a structure is to be made of."""
-    name = max(dimensions, key=dimensions.__getitem__, default="")
-    if not name or dimensions[name] <= _LARGE:
-        return []
-    return [f"{name} is {dimensions[name]:g} m: millimetres? then {dimensions[name] / 1e3:g} m; see units"]
-
-
-def _of_place(corners: Array, size: float) -> list[str]:
-    """Return the question for a structure so far from the origin that rounding changes its shape."""
-    far = float(np.abs(corners).max())
-    rounded = float(np.spacing(far))
-    if rounded <= _ROUGH * size:
-        return []
-    return [
-        f"the structure is {far:.4g} m off the origin, where coordinates are rounded to {rounded:.1g} m: "
-        "move it to the origin"
-    ]
 
 
 def _of_axes(interfaces: Sequence[Interface]) -> Iterator[str]:

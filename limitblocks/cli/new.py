@@ -77,7 +77,7 @@ def command(make: Callable[..., Any]) -> Callable[..., None]:
 
 def _ask_before(given: Mapping[str, Any]) -> None:
     """Ask about dimensions in mm, of which a structure of many blocks takes minutes to make."""
-    from limitblocks.analysis.magnitudes import of_dimensions
+    from limitblocks.analysis.magnitudes_of_size import of_dimensions
 
     lengths = {
         f"--{name.replace('_', '-')}": value

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from limitblocks.analysis.magnitudes import of_size, of_volumes
+from limitblocks.analysis.magnitudes import of_volumes
+from limitblocks.analysis.magnitudes_of_size import of_size
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Contacts, find_contacts
 from limitblocks.geometry.twisted import Twisted
