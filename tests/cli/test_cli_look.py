@@ -185,6 +185,7 @@ def test_the_next_command_takes_as_touching_what_the_gap_told_does(tmp_path, cou
     """Stones 1 mm into the one below, where .6 mm counts as touching: the command works as it stands."""
     stones = [lb.Block.box("base", (3, 1, 0.2), (0, 0, -0.1))]
     stones += [lb.Block.box(f"{k}", (1, 0.5, 0.5), (0, 0, 0.25 - 0.001 + 0.499 * k)) for k in range(count)]
+    assert sum("--gap" in one for one in lb.geometry.find_contacts(stones, None).faults) == 1
     said = run("look", lb.files.write_blocks(stones, tmp_path / "deep.obj")).stdout
     _, *words = shlex.split(said.rpartition("Next: ")[2])
     said = run(*words).stdout
