@@ -73,6 +73,16 @@ def test_margin_of_a_joint_that_crushes(unit_weight, crushing_share):
     assert lb.stability(leaning).margin == pytest.approx(0.4 - crushing_share, rel=1e-6)
 
 
+def test_largest_margin_where_joints_that_crush_share_a_weight():
+    """Beds of 1, .842 and 1 m2, fc 1 m2 = W: n - n^2 = m - m^2 / .842 of 2 n + m = 1 is .21 at n = .3."""
+    W, middle = GAMMA, 0.16 / 0.19
+    places = {"left": (1.0, -2.5), "middle": (middle, 0.0), "right": (1.0, 2.5)}
+    blocks = [lb.Block.box(name, (bed, 1, 1), (x, 0, -0.5)) for name, (bed, x) in places.items()]
+    blocks.append(lb.Block.box("slab", (6, 1, 1), (0, 0, 0.5), W / 6.0))
+    own = model(blocks, [*places], lb.OrdunaLourenco(2.5, W))
+    assert lb.stability(own).margin == pytest.approx(0.21, rel=1e-5)
+
+
 def test_a_slack_tie_is_half_its_strength_from_yield():
     """Of a tension between 0 and c no state is farther than c / 2 from both."""
     own = model([*under_water(1.0, lb.OrdunaLourenco(0.4)).blocks], ["ground"], lb.OrdunaLourenco(0.4))
