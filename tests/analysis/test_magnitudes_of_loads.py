@@ -7,7 +7,7 @@ import pytest
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.magnitudes import questions
-from limitblocks.analysis.magnitudes_of_bridges import of_passive
+from limitblocks.analysis.magnitudes_of_bridges import of_axles, of_passive
 
 
 def block():
@@ -47,6 +47,25 @@ def test_weights_that_do_not_act_downwards_are_asked_about(to, factor, asked):
     found = questions(replace(block(), dead=factor * lb.mass_proportional(to)))
     said = "the dead load has the weight of block 'block 1', 1e+04 N, along {}: meant? Down is (0, 0, -1)"
     assert found == [said.format(asked)] * bool(asked)
+
+
+@pytest.mark.parametrize(
+    ("dead", "live"),
+    [
+        (0.1 * lb.mass_proportional((1, 0, 0)), lb.self_weight()),
+        (
+            lb.loads.force("block 1", (0, 0, -10e3), (0, 0, 0.5)) + 0.1 * lb.mass_proportional((1, 0, 0)),
+            lb.mass_proportional((1, 0, 0)),
+        ),
+    ],
+    ids=["the weight grows", "the weight is a force"],
+)
+def test_a_push_beside_weights_that_another_load_has_is_not_asked_about(dead, live):
+    assert questions(replace(block(), dead=dead, live=live)) == []
+
+
+def test_axles_of_vehicles_far_from_each_other_are_not_asked_about():
+    assert of_axles([60e3, 60e3, 60e3, 60e3], [0.0, 1.8, 60.0, 61.8]) == []
 
 
 @pytest.mark.parametrize(
