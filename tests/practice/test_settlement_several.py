@@ -176,3 +176,11 @@ def test_rigid_guide_makes_one_body_of_two_blocks(tmp_path):
         assert lb.read(guided.save(tmp_path / f"{slides}.json")).interfaces[-1].joint == Guide(
             1e9, slides=slides
         )
+
+
+@pytest.mark.parametrize(("slides", "forces"), [(True, 2), (False, 3)])
+def test_forces_and_moments_up_to_which_a_guide_holds(slides, forces):
+    """On 2 x 2 m with 3 Pa: 12 N, and 24 Nm."""
+    corners = np.array([[(-1, -1), (1, -1), (1, 1), (-1, 1)]], dtype=float)
+    rows = Guide(3.0, slides=slides).yield_rows(corners)
+    assert rows.g[0] == pytest.approx(2 * [*forces * [12.0], *3 * [24.0]])
