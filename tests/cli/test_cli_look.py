@@ -209,6 +209,22 @@ def test_the_next_command_divides_twisted_faces_rather_than_leaving_stones_out(t
     assert "--skip-bad" not in said
 
 
+def test_the_next_command_leaves_out_what_is_open_where_few_faces_are_twisted(tmp_path):
+    """Two boxes of five lack a face, one has a corner 0.1 m out of its faces: to divide these mends one."""
+    rows = []
+    for k in range(5):
+        stone = lb.Block.box(f"b{k}", (1.0, 1.0, 1.0), (2.0 * k, 0.0, 0.5))
+        corners = stone.vertices + 0.1 * (k == 0) * np.eye(8)[7][:, None] * [0.0, 0.0, 1.0]
+        rows += [f"o b{k}", *(f"v {x} {y} {z}" for x, y, z in corners.tolist())]
+        faces = stone.faces[: 5 if k in (1, 2) else 6]
+        rows += ["f " + " ".join(str(8 * k + v + 1) for v in face) for face in faces]
+    file = tmp_path / "open.obj"
+    file.write_text("\n".join(rows))
+    _, *words = shlex.split(run("look", file).stdout.rpartition("Next: ")[2])
+    assert words[0] == "import"
+    assert "--skip-bad" in words
+
+
 def test_healing_what_tells_no_accuracy_says_what_to_do(tmp_path):
     stones = [lb.Block.box("base", (2, 1, 1), (0, 0, -0.5)), lb.Block.box("top", (1, 1, 1), (0, 0, 0.5))]
     file = lb.files.write_blocks(stones, tmp_path / "two.obj")
