@@ -77,7 +77,7 @@ def diagnose(
     Raises
     ------
     ModelError
-        A tolerance is out of range, or the joint of an interface is none.
+        A tolerance is out of range, or an interface has something else for a joint.
     """
     own = checked_model(model).tolerances
     if own is not None:

@@ -24,7 +24,7 @@ Support = Annotated[
         help="Support that gives way; repeat it for several that do as one body.", show_default=False
     ),
 ]
-Direction = Annotated[Any, vector("--direction", names="X,Y,Z", help="Of its motion.")]
+Direction = Annotated[Any, vector("--direction", names="X,Y,Z", help="Of the motion.")]
 ToCollapse = Annotated[
     bool, typer.Option("--until-collapse", help="Let it settle until the structure falls.")
 ]
