@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 import shlex
 from typing import TYPE_CHECKING, cast
 
@@ -18,8 +17,6 @@ if TYPE_CHECKING:
     from limitblocks.io.look import Look, SeenBlock
 
 _MOST_ROWS = 24
-#: The gap with which no overlap is left.
-_TOUCHING = re.compile(r"overlap(?:, by up to| by) .*--gap ([^,]+),")
 
 
 def look(
@@ -122,8 +119,7 @@ def _next(
     words += [part for layer in layers for part in ("--layers", layer)]
     words += ["--skip-bad"] if seen.faults else []
     words += ["--heal"] if any("--heal" in one for one in seen.warnings) else []  # refused without it
-    touching = [found[1] for one in seen.warnings if (found := _TOUCHING.search(one))]
-    words += ["--gap", touching[0]] if touching else []  # as above
+    words += ["--gap", f"{seen.touching:.2g}"] if seen.touching else []
     if not seen.marked_supports:
         chosen = seen.likely_supports[0].chosen_by if seen.likely_supports else ("NAME",)
         words += [part for one in chosen for part in ("--supports", one)]

@@ -102,12 +102,17 @@ class Contacts(Shown):
         return 0.0 if thin or deep else 1.1 * overlap.depth / self.length
 
     @property
+    def touching(self) -> float:
+        """The gap, in block lengths, that takes blocks that overlap a little as touching; 0 if none do."""
+        return max(map(self._gap_for, self.overlaps), default=0.0)
+
+    @property
     def _remedy_of_all(self) -> list[str]:
         """The line with one remedy of several overlaps; none where there is none, or one overlap."""
         gaps = [gap for gap in map(self._gap_for, self.overlaps) if gap]
         if len(self.overlaps) < 2 or not gaps:
             return []
-        count, gap = len(self.overlaps), f"{max(gaps):.2g}"
+        count, gap = len(self.overlaps), f"{self.touching:.2g}"
         deepest = max(one.depth for one in self.overlaps if self._gap_for(one))
         these = "" if len(gaps) == count else f"{len(gaps)} of them "
         return [

@@ -80,6 +80,8 @@ class Look(Shown):
         Lowest and highest coordinates, m.
     contacts : str
         Interfaces found, with the accuracy of the faces.
+    touching : float
+        Gap that takes blocks which overlap a little as touching, in block lengths; 0 if none do.
     marked_supports : tuple of str
         Blocks that the file says do not move.
     likely_supports : tuple of LikelySupports
@@ -101,6 +103,7 @@ class Look(Shown):
     up: str
     bounding_box: tuple[tuple[float, ...], tuple[float, ...]]
     contacts: str
+    touching: float
     marked_supports: tuple[str, ...]
     likely_supports: tuple[LikelySupports, ...]
     warnings: tuple[str, ...]
@@ -214,6 +217,7 @@ def _look(
         up,
         (tuple(corners.min(axis=0).tolist()), tuple(corners.max(axis=0).tolist())),
         f"{many(len(contacts.interfaces), 'interface')}; {contacts.accuracy}",
+        contacts.touching,
         marked,
         likely_supports(blocks),
         (*warnings, *_suspicious(blocks, corners, contacts)),

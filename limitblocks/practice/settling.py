@@ -23,7 +23,7 @@ from limitblocks.practice.freed import as_before, moving_supports, pressed
 from limitblocks.shown import kept
 
 RIGID = 1e3  # strength of the guides over the weight of the structure
-WIDE = 100.0  # their sides over their lever: paths start at one stiffness per area of all joints
+WIDE = 100.0  # their sides over the size of what moves: paths start at one stiffness per area of all joints
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,9 +112,7 @@ def settling(model: Model, support: str | Sequence[str], direction: Sequence[flo
 def _guides(model: Model, moving: Sequence[Block], d: Array, weight: float) -> list[Interface]:
     """The guide along d of the first block that moves, and what holds the others to it."""
     still = next(name for name in model.supports if name not in {block.name for block in moving})
-    first, ends = moving[0], np.stack([block.centroid for block in moving])
-    lever = max(first.size, float(np.linalg.norm(ends - ends[0], axis=1).max()))  # to what it bears
-    size = WIDE * lever
+    first, size = moving[0], WIDE * moving[0].size
     axes, polygon = read_only(axes_of(d)[[2, 0, 1]]), read_only(size * CORNERS)  # s1 along the motion
     own = Guide(RIGID * weight / size**2)
     return [

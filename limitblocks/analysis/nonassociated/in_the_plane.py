@@ -15,7 +15,7 @@ from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.interior import carried
 from limitblocks.analysis.nonassociated.loading import ADMISSIBLE, Pushed
 from limitblocks.analysis.nonassociated.path_equations import Point
-from limitblocks.analysis.nonassociated.path_record import CLIMBING, IN_HALF, INTERRUPTED
+from limitblocks.analysis.nonassociated.path_record import IN_HALF, INTERRUPTED
 from limitblocks.analysis.nonassociated.permanent import arose, permanent_state
 from limitblocks.analysis.nonassociated.start import Start, start_stresses
 from limitblocks.analysis.nonassociated.ways import Half, no_half
@@ -129,10 +129,9 @@ def found_in_plane_or_whole(
     In the whole problem `solve` may ask for what it finds in one half.
     """
     weights = flow.problem.compliance
-    planar, climbs = flow_in_plane(model, flow, weights, start), False
+    planar = flow_in_plane(model, flow, weights, start)
     if planar is not None:
         state, how = solve(planar.flow, planar.x0, no_half)
-        climbs = CLIMBING in how
         lifted = planar.accepted(state, tolerance)
         if lifted is not None or how.endswith(INTERRUPTED):
             return lifted or planar.plane.lifted(state), way_in_plane(how)
@@ -145,11 +144,7 @@ def found_in_plane_or_whole(
         state, how = solve(one.flow, one.x0, no_half)
         return one.plane.lifted(state), way_in_plane(how, IN_HALF)
 
-    state, how = solve(flow, start_stresses(model, flow, weights, start), half)
-    solved = mcp_residuals(flow, state).worst.value <= tolerance
-    if climbs and not solved and CLIMBING not in how and not how.endswith(INTERRUPTED):
-        how = f"{how}, {CLIMBING}"  # as the increments of the plane do
-    return state, how
+    return solve(flow, start_stresses(model, flow, weights, start), half)
 
 
 def _start(
