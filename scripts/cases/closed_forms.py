@@ -7,6 +7,7 @@ from itertools import product
 
 import limitblocks as lb
 from cases.case import ANALYSES, FLOWS, JOINTS, Case, associated, nonassociated
+from cases.statics import SIDEWAYS, model_of
 from limitblocks import structures
 
 
@@ -16,21 +17,20 @@ def jammed(joint):
         lb.Block.box("ceiling", (3.0, 1.0, 0.2), (0, 0, 1.1)),
         lb.Block.box("block", (1.0, 1.0, 1.0), (0, 0, 0.5), 20e3),
     ]
-    interfaces = lb.find_interfaces(blocks, joint)
-    return lb.Model(
-        blocks, ["floor", "ceiling"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0))
-    )
+    return model_of(blocks, joint)
 
 
-def leaves(joint):
-    """Two leaves of 0.12 m x 2.4 m side by side, nothing between them, pushed across."""
+def leaves(joint, between=None):
+    """Two leaves of 0.12 m x 2.4 m side by side, their common joint `between` or none, pushed across."""
     blocks = [
         lb.Block.box("base", (1.0, 1.0, 0.2), (0, 0, -0.1)),
         lb.Block.box("inner", (1.0, 0.12, 2.4), (0, -0.06, 1.2), 20e3),
         lb.Block.box("outer", (1.0, 0.12, 2.4), (0, 0.06, 1.2), 20e3),
     ]
-    interfaces = [i for i in lb.find_interfaces(blocks, joint) if "base" in (i.block_i, i.block_j)]
-    return lb.Model(blocks, ["base"], interfaces, lb.self_weight(), lb.mass_proportional((0, 1, 0)))
+    model = model_of(blocks, joint, SIDEWAYS)
+    beds = [i for i in model.interfaces if "base" in (i.block_i, i.block_j)]
+    sides = [replace(i, joint=between) for i in model.interfaces if between and i not in beds]
+    return replace(model, interfaces=[*beds, *sides])
 
 
 def pushed_at(z, joint):
