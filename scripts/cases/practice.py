@@ -14,11 +14,9 @@ from scipy.optimize import brentq
 
 import limitblocks as lb
 from cases.case import Case, of_print
-from limitblocks.loads import added_mass
 from limitblocks.practice import (
     Deck,
     PartialFactors,
-    Spectrum,
     Vehicle,
     adequacy,
     capacity_curve,
@@ -39,16 +37,18 @@ from limitblocks.practice import (
 from limitblocks.structures import Fill, arch_bridge
 from limitblocks.structures.cases import COCCHETTI_RIZZI, PRESTWOOD, STOCKDALE
 
-sys.path.append(str(Path(__file__).parents[2] / "tests" / "practice"))
+sys.path.extend(str(Path(__file__).parents[2] / folder) for folder in ("tests", "tests/practice"))
 
+import facades
 import planar_bridge
 import spreading_arch
+from facades import ARM, FLOOR, OWN, SITE, G, H, T
+from stones import model_of
 
 GROUP = "Practice"
 ANOTHER = "another program, tests/practice/"
 SPREAD = 1e-6  # of the radius: the interval in which a spreading arch falls
-T, H, FLOOR, ARM, G = 0.5, 5.0, 10e3, 0.35, 9.81
-OWN = 18e3 * T * H  # N a metre of the facade
+JOINT = lb.PointContact(0.7)
 
 
 def nonassociated(model):
@@ -57,17 +57,12 @@ def nonassociated(model):
     return result.load_factor
 
 
-@cache
-def facade(floor=FLOOR):
-    """One metre of a wall of .5 m x 5 m with a floor at its top, .35 m from the edge, pushed outwards."""
-    stones = [
-        lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
-        lb.Block.box("wall", (T, 1, H), (0, 0, H / 2), 18e3),
-    ]
-    carried = [added_mass("wall", (T / 2 - ARM, 0, H), weight=floor)] if floor else []
-    found = lb.find_interfaces(stones, lb.PointContact(0.7))
-    live = lb.mass_proportional((1, 0, 0), carried)
-    return lb.Model(stones, ["ground"], found, lb.self_weight(carried), live)
+facade, lintel = partial(facades.facade, JOINT), partial(facades.beam, JOINT)
+
+
+def wall():
+    """The facade without its floor."""
+    return model_of(facades.wall_stones(), ["ground"], JOINT)
 
 
 def rod(z, force, prestress=0.0):
@@ -83,19 +78,8 @@ def rocking(force=0.0, z=0.0):
 @cache
 def verified():
     model = facade()
-    site = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
     curve = capacity_curve(model, control=("wall", (T / 2, 0.5, H)), steps=3)
-    return verification(model, lb.nonassociated(model), site, q=2.0, confidence=1.35, curve=curve)
-
-
-def lintel():
-    stones = [
-        lb.Block.box("left", (0.5, 1, 1), (0.25, 0, -0.5)),
-        lb.Block.box("right", (0.5, 1, 1), (2.75, 0, -0.5)),
-        lb.Block.box("beam", (4.0, 1, 0.5), (2.0, 0, 0.25), 20e3),
-    ]
-    found = lb.find_interfaces(stones, lb.PointContact(0.7))
-    return lb.Model(stones, ["left", "right"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return verification(model, lb.nonassociated(model), SITE, q=2.0, confidence=1.35, curve=curve)
 
 
 def arch_thrust():
@@ -121,8 +105,7 @@ def slides_away():
         lb.Block.box("right", (0.2, 1, 1), (1.5, 0, -0.5)),
         lb.Block.box("beam", (4.0, 1, 0.5), (-0.4, 0, 0.25), 20e3),
     ]
-    found = lb.find_interfaces(stones, lb.PointContact(0.5))
-    beam = lb.Model(stones, ["left", "right"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    beam = model_of(stones, ["left", "right"], lb.PointContact(0.5))
     way = settlement_to_collapse(beam, "right", (1, 0, 0), step=0.1, accuracy=1e-3)
     return way.falls
 
@@ -154,18 +137,17 @@ def tipped():
 def wedge_in_fill():
     """A prism of 45 degrees that slides into fill."""
     section = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]
-    points = [(x, y, z) for y in (-0.5, 0.5) for x, z in section]
-    faces = [(0, 1, 2), (5, 4, 3), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)]
-    stones = [lb.Block.box("ground", (3, 1, 0.4), (0.5, 0, -0.2)), lb.Block("wedge", points, faces, 20e3)]
-    found = lb.find_interfaces(stones, lb.PointContact(0.2))
-    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    wedge = lb.Block.prism("wedge", section, (-0.5, 0.5), 20e3)
+    stones = [lb.Block.box("ground", (3, 1, 0.4), (0.5, 0, -0.2)), wedge]
+    model = model_of(stones, ["ground"], lb.PointContact(0.2))
     return nonassociated(reinforced(model, *passive_fill(model, 1.5, unit_weight=1e3, coefficient=2.0)))
 
 
 def rocks_with_prestress(strength=2e3, z=4.5, away=9.0):
     """Zero of a wall held by a tie of which half is prestress, m of its top."""
-    model = reinforced(facade(0.0), tie("wall", (-T / 2, 0, z), "ground", (-T / 2 - away, 0, z), area=1e-4,
-                                        strength=strength / 1e-4, prestress=strength / 2))  # fmt: skip
+    held = tie("wall", (-T / 2, 0, z), "ground", (-T / 2 - away, 0, z), area=1e-4, strength=strength / 1e-4,
+               prestress=strength / 2)  # fmt: skip
+    model = reinforced(wall(), held)
     return capacity_curve(model, control=("wall", (T / 2, 0.5, H)), steps=3).zero
 
 
@@ -335,8 +317,8 @@ def practice():
                0.3 * (1 - 9810.0 * 0.6 * 2.0 / 40e3), lifted)  # fmt: skip
     force = OWN * (0.3 * H - T) / 2 / 4.5
     yield case("wall, least ties for load factor .3", "sum of forces, N", "W (a H - t) / (2 z)", force,
-               lambda: least_ties(facade(0.0), [rod(2.0, 1e5), rod(4.5, 1e5)], 0.3).total)  # fmt: skip
+               lambda: least_ties(wall(), [rod(2.0, 1e5), rod(4.5, 1e5)], 0.3).total)  # fmt: skip
     mass = OWN * (0.12 * H - T) / 2 / (T - 0.12 * 0.5)
     places = [("wall", (0, 0, 4.0)), ("wall", (-T / 2, 0, 0.5))]
     yield case("wall, least masses for load factor .12", "sum of weights, N", "W (a H - t) / 2 (x - a z)",
-               mass, lambda: least_masses(facade(0.0), places, 0.12).total)  # fmt: skip
+               mass, lambda: least_masses(wall(), places, 0.12).total)  # fmt: skip
