@@ -9,7 +9,6 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.geometry import Block
 from limitblocks.joints import Joint
-from limitblocks.mechanics import Load
 from limitblocks.model import Model
 from limitblocks.structures.build import (
     HORIZONTAL,
@@ -20,7 +19,7 @@ from limitblocks.structures.build import (
     record,
     refuse_not_positive,
 )
-from limitblocks.structures.fills import Fill, fill_loads, refuse_fill
+from limitblocks.structures.fills import Fill, fill_loads
 from limitblocks.structures.piers import Piers, on_piers, pier_blocks_of
 from limitblocks.structures.rings import Ring, Stereotomy, circular, elliptical, pointed, refuse_rise
 
@@ -187,11 +186,6 @@ def _arch(
     blocks = [
         prism(f"voussoir {k + 1}", outline, depth, unit_weight) for k, outline in enumerate(ring.voussoirs())
     ]
-    extra = (Load(), Load())
-    if fill is not None:
-        fill = record(Fill, fill)
-        refuse_fill(fill)
-        surfaces = [(block.name, top) for block, top in zip(blocks, ring.extrados, strict=True)]
-        level = float(ring.extrados[..., 1].max()) + fill.height
-        extra = fill_loads(fill, [*surfaces, *ledges], level, depth, direction)
+    tops = [(block.name, top) for block, top in zip(blocks, ring.extrados, strict=True)]
+    extra = fill_loads(fill, [*tops, *ledges], depth, direction)
     return model_of([*below, *blocks], supports, joint, direction, name, extra)

@@ -9,7 +9,6 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.geometry import Block
 from limitblocks.joints import Joint
-from limitblocks.mechanics import Load
 from limitblocks.model import Model
 from limitblocks.structures.build import (
     HORIZONTAL,
@@ -19,12 +18,11 @@ from limitblocks.structures.build import (
     pier,
     plain_numbers,
     prism,
-    record,
     refuse,
     refuse_fewer,
     refuse_not_positive,
 )
-from limitblocks.structures.fills import Fill, fill_loads, refuse_fill
+from limitblocks.structures.fills import Fill, fill_loads
 from limitblocks.structures.rings import Ring, circular, refuse_rise
 
 
@@ -108,7 +106,7 @@ def arch_bridge(
         tops.append((stones[-1].name, top))
         y = (-depth / 2, depth / 2)
         supports.append(base((at - width / 2, at + width / 2), y, pier_height / pier_blocks, f"base {k}"))
-    extra = (Load(), Load()) if fill is None else _fill(record(Fill, fill), each[-1], tops, depth, direction)
+    extra = fill_loads(fill, tops, depth, direction)
     law = _law(joint, joint if ring_joint is None else ring_joint)
     name = f"arch bridge of {spans} span{'s' * (spans > 1)}"
     return model_of([*arches, *piers], supports, law, direction, name, extra)
@@ -138,15 +136,6 @@ def _arches(
         blocks += [prism(name, outline, depth, unit_weight) for name, outline, _ in named]
         tops += [(name, top) for name, _, top in named[-(len(named) // len(rings)) :]]
     return blocks, tops
-
-
-def _fill(
-    fill: Fill, ring: Ring, tops: Sequence[tuple[str, Array]], depth: float, direction: Sequence[float]
-) -> tuple[Load, Load]:
-    """The dead and the live load of fill above the crown of the outermost ring."""
-    refuse_fill(fill)
-    level = float(ring.extrados[..., 1].max()) + fill.height
-    return fill_loads(fill, tops, level, depth, direction)
 
 
 def _law(joint: Joint, between: Joint) -> Callable[[Block, Block], Joint]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -12,7 +12,7 @@ from limitblocks.arrays import Array, real
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import fill as earth
 from limitblocks.mechanics.loads import force, unit_vector
-from limitblocks.structures.build import refuse
+from limitblocks.structures.build import record, refuse
 
 
 class Fill(NamedTuple):
@@ -42,20 +42,30 @@ class Fill(NamedTuple):
 
 
 def fill_loads(
-    fill: Fill, surfaces: Iterable[tuple[str, Array]], level: float, depth: float, direction: Sequence[float]
+    fill: Fill | None, surfaces: Sequence[tuple[str, Array]], depth: float, direction: Sequence[float]
 ) -> tuple[Load, Load]:
-    """Return the dead and the live load of the fill below z = `level`, m.
+    """Return the dead and the live load of fill, or of none, over the crown, the highest of some surfaces.
 
     Parameters
     ----------
-    fill : Fill
-    surfaces : iterable of (str, Array)
+    fill : Fill, optional
+    surfaces : sequence of (str, Array)
         Names of blocks and their upper edges: points (x, z) from left to right, shape (n, 2), m.
-    level, depth : float
-        Top of the fill, and its dimension along Y, m.
+    depth : float
+        Dimension along Y, m.
     direction : sequence of float
         Direction of the live load.
+
+    Raises
+    ------
+    ModelError
+        It names everything that makes the fill impossible.
     """
+    if fill is None:
+        return Load(), Load()
+    fill = record(Fill, fill)
+    _refuse_fill(fill)
+    level = max(float(points[:, 1].max()) for _, points in surfaces) + fill.height
     push = fill.inertia * np.array(unit_vector(direction, "direction"))
     live = []
     for name, points in surfaces:
@@ -71,8 +81,7 @@ def fill_loads(
     return dead, sum(live, Load()) if fill.inertia else Load()
 
 
-def refuse_fill(fill: Fill) -> None:
-    """Raise ModelError naming everything that makes the fill impossible."""
+def _refuse_fill(fill: Fill) -> None:
     problems = [
         f"fill {name} is {value!r}, expected a number >= 0"
         for name, value in zip(fill._fields, fill, strict=True)
