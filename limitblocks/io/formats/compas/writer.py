@@ -1,4 +1,4 @@
-"""Blocks as COMPAS JSON: an assembly that compas.json_load of COMPAS 2 reads without any other package."""
+"""Blocks and results as COMPAS JSON: an assembly that compas.json_load reads without any other package."""
 
 from __future__ import annotations
 
@@ -7,7 +7,10 @@ from collections.abc import Container, Mapping, Sequence
 from typing import Any
 from uuid import NAMESPACE_URL, uuid5
 
+from limitblocks.arrays import Array
+from limitblocks.drawing.arrows import Picture
 from limitblocks.geometry import Block
+from limitblocks.io.imported import labels
 
 _FRAME = {"point": [0.0, 0.0, 0.0], "xaxis": [1.0, 0.0, 0.0], "yaxis": [0.0, 1.0, 0.0]}
 
@@ -17,10 +20,51 @@ def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Contai
 
     The graph is that of an assembly of compas_assembly, with a part beside each block.
     """
-    return assembly(graph_of(blocks, layers, supports))
+    return _assembly(_graph(blocks, layers, supports))
 
 
-def graph_of(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> dict[str, Any]:
+def with_forces(shown: Picture) -> bytes:
+    """Return the assembly of `write_blocks`, with "displaced" at nodes and "interfaces" at edges.
+
+    The edge from block i to block j has a list, an entry an interface between them: "name", "point",
+    "force" and "moment" (vectors, N and N m, of i on j) and "line", the arrow.
+    """
+    graph = _graph(shown.blocks, labels(shown.blocks, shown.supports), shown.supports)
+    graph["attributes"] |= {
+        "load_factor": shown.load_factor,
+        "scale": shown.scale,
+        "magnification": shown.magnification,
+    }
+    graph["default_node_attributes"]["displaced"] = None
+    graph["default_edge_attributes"]["interfaces"] = None
+    for k, block in enumerate(shown.displaced):
+        graph["node"][str(k)]["displaced"] = _thing(
+            "datastructures/Mesh", mesh(block), block.name, f"displaced {k}"
+        )
+    for k, (i, j) in enumerate(shown.pairs):
+        edge = graph["edge"][str(i)].setdefault(str(j), {"interfaces": []})
+        edge["interfaces"].append(_interface(shown, k))
+    return _assembly(graph)
+
+
+def _interface(shown: Picture, k: int) -> dict[str, Any]:
+    def geometry(word: str, kind: str, data: Any) -> dict[str, Any]:
+        return {word: _thing(f"geometry/{kind}", data, word, f"{word} {k}")}
+
+    def listed(values: Array) -> list[float]:
+        return [float(value) for value in values[k]]
+
+    ends = {"start": listed(shown.at), "end": listed(shown.tips)}
+    return (
+        {"name": shown.names[k]}
+        | geometry("point", "Point", listed(shown.at))
+        | geometry("force", "Vector", listed(shown.force))
+        | geometry("moment", "Vector", listed(shown.moment))
+        | geometry("line", "Line", ends)
+    )
+
+
+def _graph(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> dict[str, Any]:
     """Return the data of the graph: a node a block, no edges."""
     nodes = {
         str(k): _node(k, block, layers.get(block.name, ""), block.name in supports)
@@ -36,11 +80,11 @@ def graph_of(blocks: Sequence[Block], layers: Mapping[str, str], supports: Conta
     }
 
 
-def assembly(graph: dict[str, Any]) -> bytes:
+def _assembly(graph: dict[str, Any]) -> bytes:
     """Return the file of an assembly with this graph."""
     data = {"graph": graph, "attributes": {}}
     return json.dumps(
-        thing("datastructures/Assembly", data, "limitblocks", "assembly"), allow_nan=False
+        _thing("datastructures/Assembly", data, "limitblocks", "assembly"), allow_nan=False
     ).encode()
 
 
@@ -48,8 +92,8 @@ def _node(k: int, block: Block, layer: str, support: bool) -> dict[str, Any]:
     part = {"attributes": {"name": block.name}, "key": k, "frame": _FRAME, "features": []}
     x, y, z = block.centroid.tolist()
     return {
-        "part": thing("datastructures/Part", part, block.name, f"part {k}"),
-        "block": thing("datastructures/Mesh", mesh(block), block.name, f"block {k}"),
+        "part": _thing("datastructures/Part", part, block.name, f"part {k}"),
+        "block": _thing("datastructures/Mesh", mesh(block), block.name, f"block {k}"),
         "is_support": support,
         "layer": layer,
         "material": block.material,
@@ -78,7 +122,7 @@ def mesh(block: Block) -> dict[str, Any]:
     }
 
 
-def thing(dtype: str, data: Any, name: str, key: str) -> dict[str, Any]:
+def _thing(dtype: str, data: Any, name: str, key: str) -> dict[str, Any]:
     """Return an object of COMPAS; `key` tells it from the others of the file."""
     guid = str(uuid5(NAMESPACE_URL, f"limitblocks {key}"))  # the same blocks give the same file
     return {"dtype": f"compas.{dtype}", "data": data, "name": name, "guid": guid}

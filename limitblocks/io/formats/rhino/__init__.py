@@ -1,7 +1,6 @@
 """Rhino's 3dm files."""
 
-from limitblocks.io.formats.rhino.forces import with_forces
 from limitblocks.io.formats.rhino.reader import contents
-from limitblocks.io.formats.rhino.writer import encoded
+from limitblocks.io.formats.rhino.writer import encoded, with_forces
 
 __all__ = ["contents", "encoded", "with_forces"]
