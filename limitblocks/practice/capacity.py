@@ -24,12 +24,11 @@ from limitblocks.practice.advance import (
     stopped,
     velocity,
 )
-from limitblocks.practice.answered import answered
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control, to_zero, zero_of
 from limitblocks.practice.displaced import CLOSED, Assembly
 from limitblocks.practice.kept import gathered
 from limitblocks.practice.snapped import NoRest, held
-from limitblocks.practice.touching import pressed_in
+from limitblocks.practice.touching import answered, pressed_in
 
 FIRST = 1e-3  # of the size of the structure: the first step
 GROWTH = 10.0  # of a step over the one before where the load factor rises

@@ -2,28 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
+from limitblocks.analysis.in_si import resultants_of
+from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError, few
+from limitblocks.errors import ModelError, few, sequence_of
 from limitblocks.geometry import Block, Interface
 from limitblocks.geometry.polygon import axes_of
 from limitblocks.joints import Guide
 from limitblocks.mechanics import Load
-from limitblocks.mechanics.loads import JointPressure, force
+from limitblocks.mechanics.loads import JointPressure, force, moment
 from limitblocks.mechanics.loads.load import triple, unit_vector
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.backfill import fill_at_rest
 from limitblocks.practice.elements import CORNERS, Element
-from limitblocks.practice.freed import as_before, moving_supports, pressed
 from limitblocks.shown import kept
 
 RIGID = 1e3  # strength of the guides over the weight of the structure
 WIDE = 100.0  # their sides over the size of what moves: paths start at one stiffness per area of all joints
+ROUNDING = 1e-12  # of the dead loads: a smaller difference is none
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +83,7 @@ def settling(model: Model, support: str | Sequence[str], direction: Sequence[flo
         If `support` is none, or none stays, the direction is zero, or there are no dead loads.
     """
     checked_model(model)
-    moving = moving_supports(model, support)
+    moving = _moving_supports(model, support)
     d = np.array(unit_vector(direction, f"settlement of {few([*map(repr, moving)])}: direction"))
     model = fill_at_rest(model, moving)
     weight = float(np.linalg.norm(model.dead.on(model.free_blocks)[:, :3], axis=1).sum())
@@ -90,7 +92,7 @@ def settling(model: Model, support: str | Sequence[str], direction: Sequence[flo
     blocks = [block for name in moving for block in model.blocks if block.name == name]
     pulled = sum((Element(own).loads(moving) for own in model.interfaces), Load())
     water = Load(tuple(one for one in model.dead.terms if isinstance(one[1], JointPressure)))
-    at, press = (pulled + water).on(blocks)[:, :3], pressed(model, moving)
+    at, press = (pulled + water).on(blocks)[:, :3], _pressed(model, moving)
     held = [float((press[name] + on) @ d) for name, on in zip(moving, at, strict=True)]
     reactions = [
         force(one.name, (-part * d).tolist(), one.centroid.tolist())
@@ -106,7 +108,7 @@ def settling(model: Model, support: str | Sequence[str], direction: Sequence[flo
         live=force(moving[0], (weight * d).tolist(), blocks[0].centroid.tolist()),
     )
     on_supports = dict(zip(moving, (pulled + water + reaction).on(blocks), strict=True))
-    return Settling(as_before(model, freed, on_supports), moving, read_only(d), sum(held), weight)
+    return Settling(_as_before(model, freed, on_supports), moving, read_only(d), sum(held), weight)
 
 
 def _guides(model: Model, moving: Sequence[Block], d: Array, weight: float) -> list[Interface]:
@@ -122,3 +124,51 @@ def _guides(model: Model, moving: Sequence[Block], d: Array, weight: float) -> l
             for one in moving[1:]
         ),
     ]
+
+
+def _as_before(model: Model, freed: Model, on_supports: Mapping[str, Array]) -> Model:
+    """The freed model less what fill and loads from above put elsewhere as supports are free.
+
+    `on_supports` are the forces and moments (6,) that act on each of those.
+    """
+    wanted = dict(zip((b.name for b in model.free_blocks), model.dead.on(model.free_blocks), strict=True))
+    wanted |= on_supports
+    free, back = freed.free_blocks, Load()
+    given = freed.dead.on(free)
+    least = ROUNDING * float(np.abs(given[:, :3]).sum())
+    for block, has in zip(free, given, strict=True):
+        off = wanted[block.name] - has
+        if np.abs(off / np.repeat([1.0, block.size], 3)).max() > least:
+            back += force(block.name, off[:3].tolist(), block.centroid.tolist())
+            back += moment(block.name, off[3:].tolist())
+    return replace(freed, dead=freed.dead + back)
+
+
+def _pressed(model: Model, supports: Sequence[str]) -> dict[str, Array]:
+    """Force of the structure on supports in an admissible state of the dead loads, global axes, N."""
+    problem = model.problem
+    Q = resultants_of(problem, dead_load_state(problem))
+    total = {name: np.zeros(3) for name in supports}
+    for own, stresses in zip(model.interfaces, Q, strict=True):
+        on_j = -stresses[:3] @ own.axes
+        for name, force_on in ((own.block_i, -on_j), (own.block_j, on_j)):
+            if name in total:
+                total[name] += force_on
+    return total
+
+
+def _moving_supports(model: Model, support: str | Sequence[str]) -> tuple[str, ...]:
+    """The names of one support or of several; ModelError where one is none, or none stays."""
+    names: tuple[str, ...] = (support,) if isinstance(support, str) else sequence_of("support", support, str)
+    said = few([*map(repr, names)])
+    for name in names:
+        if name not in model.supports:
+            kind = "a free block" if name in {b.name for b in model.blocks} else "not a block of the model"
+            known = few([*map(repr, model.supports)])
+            raise ModelError(f"settlement: {name!r} is {kind}; expected one of the supports {known}")
+    if not names or len(set(names)) < len(names):
+        raise ModelError(f"settlement of {said or 'no support'}: expected supports, each named once")
+    if len(names) == len(model.supports):
+        which = "is the only support" if len(names) == 1 else "are all the supports"
+        raise ModelError(f"settlement: {said} {which}; the whole structure would move with what settles")
+    return names

@@ -1,4 +1,4 @@
-"""What of the contacts of a displaced structure touches, and where their forces act."""
+"""What of the contacts of a displaced structure touches, where their forces act, and the answer of that."""
 
 from __future__ import annotations
 
@@ -8,17 +8,24 @@ from dataclasses import replace
 import numpy as np
 import shapely
 
-from limitblocks.arrays import Array, read_only
+from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
+from limitblocks.analysis.nonassociated.loop import nonassociated
+from limitblocks.arrays import Array, Indices, read_only
+from limitblocks.errors import NoEquilibrium, SolveError
+from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import clean
+from limitblocks.joints.queries import normal_share
 from limitblocks.model import Model
 from limitblocks.practice.displaced import CLOSED, Assembly, Contact
+from limitblocks.practice.kept import solved
 from limitblocks.practice.rejoined import joined
 from limitblocks.practice.trimmed import about_centroid
 
 PRESSED = 1e-6  # of the largest normal force: a contact with less carries none
 NEAR = 1e-3  # of the size of a joint: a centre of pressure as near to its closed corners is on them
 STRIP = 1e-2  # of the size of a joint: what is left of one on its closed corners; solved where 1e-3 is not
+CRUSHED = 1.0 - 1e-6  # of the force that crushes all of a strip: its width holds the answer back
 
 
 def touching(assembly: Assembly, narrow: Set[int] = frozenset()) -> tuple[Model, list[int]]:
@@ -90,3 +97,52 @@ def across(assembly: Assembly, stress_resultants: Array, kept: list[int]) -> dic
             there = float(opening @ [1.0, *centre])
             said[k] = f"{own.interface.name} presses across a gap of {1e3 * there:.3g} mm"
     return said
+
+
+def answered(assembly: Assembly) -> tuple[Assembly, float, Model, Nonassociated, tuple[str, ...]]:
+    """The answer and the joints that press across a gap: none once those are narrowed, if that is solved.
+
+    What crushes presses on as much of the joint as its force needs: a strip that is narrower is no answer.
+    """
+    narrow: set[int] = set()
+    found: tuple[Assembly, float, Model, Nonassociated, tuple[str, ...]] | None = None
+    while True:
+        model, kept = touching(assembly, narrow)
+        try:
+            shift, loaded, result = _answered(model)
+        except SolveError:
+            if found is None:
+                raise
+            return found
+        if found is not None and _crushed(loaded, result, np.flatnonzero(np.isin(kept, list(narrow)))):
+            return found
+        whole = [k for k in kept if k not in narrow]
+        rows = np.isin(kept, whole)
+        pressed = across(assembly, result.stress_resultants[: len(kept)][rows], whole)
+        marked = pressed_in(assembly, kept, result.stress_resultants[: len(kept)])
+        answer = marked, shift, loaded, result, tuple(pressed.values())
+        if not pressed:
+            return answer
+        found = found or answer
+        narrow |= pressed.keys()
+
+
+def _crushed(model: Model, result: Nonassociated, strips: Indices) -> bool:
+    """Whether one of the strips, by their places, carries all that its area does."""
+    forces = ((model.interfaces[k], float(result.stress_resultants[k, 2])) for k in strips)
+    return any(normal_share(own.joint, own, N) > CRUSHED for own, N in forces)
+
+
+def _answered(model: Model) -> tuple[float, Model, Nonassociated]:
+    """The answer; where the dead loads alone fall, from the load factor of the least stresses."""
+    try:
+        return 0.0, model, solved(nonassociated, model)
+    except NoEquilibrium:
+        problem = model.problem
+        least = NearestStresses(problem, problem.compliance)
+        found = least.find(np.zeros(len(problem.compliance)), np.zeros(len(problem.g)))
+        if found is None:
+            raise
+        shift = -found[0] / problem.units.live
+        held = replace(model, dead=model.dead + (-shift) * model.live)
+        return shift, held, solved(nonassociated, held)

@@ -15,8 +15,7 @@ from limitblocks.mechanics.loads.load import number
 from limitblocks.mechanics.loads.load import place as pair
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.capacity_result import CapacityCurve
-from limitblocks.practice.displacement_check import displacement_check
-from limitblocks.practice.followed import per_control
+from limitblocks.practice.displacement_check import displacement_check, per_control
 from limitblocks.practice.inputs import (
     GIVEN,
     LC1,

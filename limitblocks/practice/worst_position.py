@@ -15,8 +15,7 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.joints.base import checked_count
 from limitblocks.mechanics.loads.load import place
 from limitblocks.model import Model
-from limitblocks.practice.envelope import Found, search
-from limitblocks.practice.influence import line_of
+from limitblocks.practice.envelope import Found, line_of, search
 from limitblocks.practice.partial_factors import live_factor
 from limitblocks.practice.vehicles import Deck, Vehicle, axles
 from limitblocks.shown import Result, coordinate, kept

@@ -20,7 +20,7 @@ from limitblocks.practice import (
     vehicle_load,
     worst_position,
 )
-from limitblocks.practice.influence import line_of
+from limitblocks.practice.envelope import line_of
 from limitblocks.structures import Fill, arch_bridge
 
 JOINT = lb.PointContact(0.6)

@@ -14,9 +14,9 @@ from limitblocks.practice import (
     CapacityCurve,
     CapacityPoint,
     Control,
-    answered,
     capacity,
     capacity_curve,
+    touching,
 )
 from limitblocks.practice.advance import advanced, moved_until_contact
 from limitblocks.practice.displaced import assembly_of, moved
@@ -188,9 +188,9 @@ def test_an_opened_joint_partly_off_keeps_what_both_faces_share(across_by):
     assert np.sort(ends) == pytest.approx([across_by - 0.5, 0.5], abs=1e-12)
     if across_by > 0.5:
         with pytest.raises(NoEquilibrium):
-            answered._answered(there.model)
+            touching._answered(there.model)
     else:
-        shift, _, result = answered._answered(there.model)
+        shift, _, result = touching._answered(there.model)
         assert result.load_factor - shift == pytest.approx(np.tan(np.arctan(B / H) - phi), rel=1e-8)
 
 
@@ -292,7 +292,7 @@ def test_the_contacts_that_an_answer_presses_are_marked():
     model = lb.structures.arch(JOINTS[0], radius=5.0, thickness=1.0, voussoirs=3)
     assembly = assembly_of(model)
     assert not any(own.pressed for own in assembly.contacts)
-    assert all(own.pressed for own in answered.answered(assembly)[0].contacts)
+    assert all(own.pressed for own in touching.answered(assembly)[0].contacts)
 
 
 @pytest.mark.parametrize("floor_first", [True, False])

@@ -204,7 +204,7 @@ def test_an_interrupted_curve_keeps_its_points(monkeypatch, within):
         state = replace(solve(model), status=Status.INTERRUPTED)
         raise lb.errors.NotConverged("interrupted", state)
 
-    monkeypatch.setattr(importlib.import_module("limitblocks.practice.answered"), "nonassociated", stopped)
+    monkeypatch.setattr(importlib.import_module("limitblocks.practice.touching"), "nonassociated", stopped)
     curve = capacity_curve(model, control=("block 1", toe_corner(model)), steps=3)
     assert len(calls) == 2
     assert len(curve.points) == 2
