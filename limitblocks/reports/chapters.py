@@ -13,7 +13,6 @@ from limitblocks.evidence.residuals import Residuals
 from limitblocks.io.result_file import versions
 from limitblocks.model import Model
 from limitblocks.reports.answer import UNDEMANDED, WARNING, answer, verdict
-from limitblocks.reports.comparison import NOT_UNIQUE, comparison
 from limitblocks.reports.document import (
     Chapter,
     Document,
@@ -28,6 +27,7 @@ from limitblocks.reports.document import (
 from limitblocks.reports.facts import assumptions, fact_rows
 from limitblocks.reports.interfaces import ELEMENT_HEADS, HEADS, Active, active_interfaces, element_rows
 from limitblocks.reports.labels import Labels
+from limitblocks.reports.rows import NOT_UNIQUE, comparison
 from limitblocks.reports.section import LEGEND, Section
 from limitblocks.reports.words import acceleration
 

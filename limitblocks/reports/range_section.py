@@ -5,9 +5,8 @@ from __future__ import annotations
 from limitblocks.evidence.range_answer import Origin
 from limitblocks.evidence.range_result import Extreme, LoadFactorRange
 from limitblocks.model import Model
-from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.document import Table
-from limitblocks.reports.rows import limits
+from limitblocks.reports.rows import AS_READ, limits
 from limitblocks.reports.section import Design, Section
 from limitblocks.reports.words import cut, figures
 

@@ -1,17 +1,27 @@
-"""Rows and lines that sections of several kinds of results share."""
+"""Rows and lines that sections of several kinds of results share, and load factors side by side."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import isfinite, isinf, isnan
 
 from limitblocks.errors import few
 from limitblocks.evidence.backward_error import BackwardError
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Nonassociated
-from limitblocks.reports.as_read import AS_READ
-from limitblocks.reports.comparison import NOT_CLAIMED, Row
+from limitblocks.reports.section import Section
 from limitblocks.reports.words import at_least, at_most, figures
 
+AS_READ = "as the file says, not computed here"
+Row = tuple[str, str, str]
+NOT_CLAIMED = "not claimed"
+NOT_UNIQUE = (
+    "The load factor without dilatancy is not unique: the equations may have other solutions, at other load "
+    "factors up to the associated one, and which of them a structure reaches depends "
+    "on how it was built and loaded."
+)
+_LEAST, _MOST = "Frictionless", "Associated"  # limits of all solutions: a row each
+_ORDER = ("Non-associated", "Load path")
 SHOWN = 4  # names in a cell
 KNOWN = 0.2  # of friction: how well it is known, docs/how-sure.md
 
@@ -59,3 +69,23 @@ def loose(tolerance: float, usual: float = TOLERANCE) -> tuple[str, ...]:
     """Return a warning if a tolerance is looser than usual."""
     said = f"the tolerance {tolerance:.1e} is looser than the usual {usual:.1e}"
     return (said,) if tolerance > usual else ()
+
+
+def comparison(sections: Iterable[Section]) -> tuple[Row, ...]:
+    """Return name, value and meaning of each load factor; empty where there is nothing to compare.
+
+    Every solution has a row, but those that are alike have one. Of the limits, what was computed here counts
+    before what a file says.
+    """
+    given = tuple(dict.fromkeys(row for one in sections for row in one.compared))
+    limits = {name: _limit([row for row in given if row[0] == name]) for name in (_LEAST, _MOST)}
+    between = [row for row in given if row[0] not in limits]
+    between.sort(key=lambda row: [not row[0].startswith(name) for name in _ORDER])
+    rows = (*limits[_LEAST], *between, *limits[_MOST])
+    return rows if len(rows) > 1 else ()
+
+
+def _limit(rows: list[Row]) -> tuple[Row, ...]:
+    """The row of a limit of all results, if there is one: not claimed where one does not claim it."""
+    ranked = sorted(rows, key=lambda row: (row[1] != NOT_CLAIMED, row[2] == AS_READ))
+    return tuple(ranked[:1])

@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence.claim import Claim
 from limitblocks.kinds import KINDS, kind_of, named
 from limitblocks.model import Model, refuse_other
-from limitblocks.reports.as_read import as_read
+from limitblocks.reports.rows import AS_READ
 from limitblocks.reports.section import Section
+
+CHECKED = (
+    "read from a file: load factor, stresses, mechanism and the equilibrium of steps were checked here anew; "
+    "limits, ways and what else is named beside them are what the file says"
+)
+NOT_JUDGED = (
+    "read from a file, which does not hold what it takes to check it: all of it is what the file says"
+)
 
 
 def section(model: Model, result: Any) -> Section:
@@ -27,7 +36,21 @@ def section(model: Model, result: Any) -> Section:
         raise LimitBlocksError(f"a report cannot show {type(result).__name__}; expected a result: {known}")
     refuse_other(model, result)
     made: Section = named(kind.section)(model, result)
-    return as_read(made, result)
+    return _as_read(made, result)
+
+
+def _as_read(made: Section, result: Any) -> Section:
+    """The section of a result; where that was read it says what was checked here, if anything."""
+    if not getattr(result, "from_file", False):
+        return made
+    kind = kind_of(result)
+    if kind and kind.judge:
+        return replace(made, warnings=(CHECKED, *made.warnings))
+    title, headline = f"{made.title}, as a file says", "not checked"
+    values = (("Answer of the file", made.headline, AS_READ), *made.values)
+    said: Any = {"values": values, "warnings": (NOT_JUDGED, *made.warnings)}
+    unproven: Any = {"judged": None, "rates": None, "designs": (), "upper": None, "compared": ()}
+    return replace(made, title=title, headline=headline, **said, **unproven)
 
 
 def drawn(results: Iterable[Any], sections: Iterable[Section]) -> Section | None:

@@ -11,11 +11,9 @@ from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import OF_BOUNDS
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
-from limitblocks.reports.as_read import AS_READ
-from limitblocks.reports.comparison import Row
 from limitblocks.reports.curve import convergence_curve, path_curve
 from limitblocks.reports.document import Table
-from limitblocks.reports.rows import SHOWN, backward, far, limits, loose
+from limitblocks.reports.rows import AS_READ, SHOWN, Row, backward, far, limits, loose
 from limitblocks.reports.section import Design, Section
 from limitblocks.reports.words import at_least, at_most, cut, figures
 from limitblocks.shown import many

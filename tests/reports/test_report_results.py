@@ -13,8 +13,7 @@ from limitblocks.evidence.load_path_result import LoadPath, PathStep
 from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.problem import Turning
 from limitblocks.reports import curve
-from limitblocks.reports.comparison import comparison
-from limitblocks.reports.rows import backward
+from limitblocks.reports.rows import backward, comparison
 from limitblocks.reports.sections import section
 from limitblocks.reports.terminal import print_result
 from limitblocks.reports.words import at_most
