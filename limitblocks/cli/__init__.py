@@ -11,18 +11,36 @@ import os
 import sys
 from contextlib import suppress
 from io import TextIOWrapper
+from typing import Any
 
 import typer
+from typer.core import TyperGroup
+from typer.main import get_group
 
 from limitblocks.cli import adding, bridges, documents, practice, verbs
 from limitblocks.cli.errors import Verbs
 from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
-from limitblocks.cli.later import Later
 from limitblocks.cli.looking import look
 from limitblocks.cli.options import Version
 from limitblocks.cli.studies import studies
 from limitblocks.cli.vectors import Command
+
+
+class _New(TyperGroup):
+    """The commands of `new`, imported when one of them is asked for, so that --help is quick."""
+
+    @property
+    def commands(self) -> Any:
+        """The commands by name."""
+        from limitblocks.cli.new import new
+
+        return get_group(new).commands
+
+    @commands.setter
+    def commands(self, given: Any) -> None:
+        """What typer knows of the group: no command yet."""
+
 
 app = typer.Typer(
     cls=Verbs,
@@ -34,7 +52,7 @@ app = typer.Typer(
 )
 
 _new = typer.Typer(
-    cls=Later.of("limitblocks.cli.new", "new"),
+    cls=_New,
     help="Write the model file of a parametric structure.",
     no_args_is_help=True,
     rich_markup_mode=None,

@@ -19,9 +19,7 @@ from limitblocks.cli.options import LIVE, Force
 from limitblocks.cli.progress import of_stages
 from limitblocks.cli.vectors import Command, vector
 
-new = typer.Typer(
-    help="Write the model file of a parametric structure.", no_args_is_help=True, rich_markup_mode=None
-)
+new = typer.Typer(rich_markup_mode=None)
 
 NewFile = Annotated[
     Path | None,

@@ -17,12 +17,12 @@ from limitblocks.geometry.block import Block
 from limitblocks.geometry.contact import find_contacts
 from limitblocks.geometry.contacts import Contacts
 from limitblocks.geometry.faces import FaceTable, face_table, opposed, surfaces_of
+from limitblocks.geometry.kinds import between
 from limitblocks.geometry.mend import mended
 from limitblocks.geometry.neighbours import neighbours
 from limitblocks.geometry.overlap import solid_of
 from limitblocks.geometry.patches import covering, mean_width, patches
 from limitblocks.geometry.regions import regions
-from limitblocks.geometry.through import between
 from limitblocks.shown import many
 
 #: Distances over the accuracy: of the corners of a face from its plane, of a vertex from where it was.

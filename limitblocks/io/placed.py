@@ -13,9 +13,10 @@ from limitblocks.errors import ModelError
 from limitblocks.io import guesses
 from limitblocks.io.guesses import Boxes
 from limitblocks.io.solid import Solid, corners
+from limitblocks.io.units import METRES
 
 #: Metres per unit of length.
-UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
+UNITS = {name: float(metres) for name, metres in METRES.items()}
 SAME = 1e-5  # of a unit: a foot of the survey is a foot
 #: From axes with Y up to axes with Z up.
 Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
