@@ -70,7 +70,7 @@ def corner(joint, direction):
     return structures.corner(joint, length=2.4, return_length=2.4, courses=4, direction=direction)
 
 
-def small_facade(joint, direction):
+def small_facade(joint, direction=DIRECTIONS["out"]):
     door = [(1.2, 0.0, 0.8, 1.2)]
     return structures.facade(
         joint, length=3.2, courses=5, return_length=1.6, openings=door, direction=direction
