@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from types import MappingProxyType
 
 import numpy as np
@@ -28,30 +29,24 @@ from limitblocks.structures.wedges import wedge
 #: with friction 0.7 or more.
 EXAMPLES: Mapping[str, Callable[[Joint], Model]] = MappingProxyType(
     {
-        "block": lambda joint: block(joint, width=0.5, height=1.0),
-        "column": lambda joint: column(joint, count=4, width=0.5, height=0.4),
-        "overhang": lambda joint: overhang(joint, count=5, length=1.0, height=0.2, fraction=0.9),
-        "wall": lambda joint: wall(
-            joint, length=3.2, courses=8, openings=[(0.4, 0.0, 0.8, 1.0), (1.8, 0.6, 0.6, 0.4)]
+        "block": partial(block, width=0.5, height=1.0),
+        "column": partial(column, count=4, width=0.5, height=0.4),
+        "overhang": partial(overhang, count=5, length=1.0, height=0.2, fraction=0.9),
+        "wall": partial(wall, length=3.2, courses=8, openings=[(0.4, 0.0, 0.8, 1.0), (1.8, 0.6, 0.6, 0.4)]),
+        "two_leaf_wall": partial(two_leaf_wall, length=1.6, courses=6, header_spacing=0.8),
+        "two_leaf_wall, no headers": partial(two_leaf_wall, length=1.6, courses=6),
+        "ferris_tin_loi_wall": partial(ferris_tin_loi_wall, 3),
+        "corner": partial(corner, length=2.4, return_length=2.4, courses=5),
+        "facade": partial(facade, length=4.0, courses=7, return_length=1.6, openings=[(1.6, 0.0, 0.8, 1.6)]),
+        "tower": partial(tower, length=2.4, width=2.4, courses=8, openings={"front": [(0.8, 0.0, 0.8, 1.6)]}),
+        "buttressed_wall": partial(
+            buttressed_wall, length=3.6, courses=6, buttress_length=0.8, buttress_courses=4
         ),
-        "two_leaf_wall": lambda joint: two_leaf_wall(joint, length=1.6, courses=6, header_spacing=0.8),
-        "two_leaf_wall, no headers": lambda joint: two_leaf_wall(joint, length=1.6, courses=6),
-        "ferris_tin_loi_wall": lambda joint: ferris_tin_loi_wall(3, joint),
-        "corner": lambda joint: corner(joint, length=2.4, return_length=2.4, courses=5),
-        "facade": lambda joint: facade(
-            joint, length=4.0, courses=7, return_length=1.6, openings=[(1.6, 0.0, 0.8, 1.6)]
-        ),
-        "tower": lambda joint: tower(
-            joint, length=2.4, width=2.4, courses=8, openings={"front": [(0.8, 0.0, 0.8, 1.6)]}
-        ),
-        "buttressed_wall": lambda joint: buttressed_wall(
-            joint, length=3.6, courses=6, buttress_length=0.8, buttress_courses=4
-        ),
-        "portal": lambda joint: portal(joint, span=1.6, pier_width=0.6, pier_blocks=4),
-        "eccentric_lintel": lambda joint: eccentric_lintel(joint, eccentricity=0.1),
-        "arch": lambda joint: arch(joint, radius=2.0, thickness=0.4, voussoirs=13),
-        "arch, vertical joints": lambda joint: arch(
-            joint,
+        "portal": partial(portal, span=1.6, pier_width=0.6, pier_blocks=4),
+        "eccentric_lintel": partial(eccentric_lintel, eccentricity=0.1),
+        "arch": partial(arch, radius=2.0, thickness=0.4, voussoirs=13),
+        "arch, vertical joints": partial(
+            arch,
             radius=2.0,
             thickness=0.3,
             voussoirs=9,
@@ -59,49 +54,39 @@ EXAMPLES: Mapping[str, Callable[[Joint], Model]] = MappingProxyType(
             stereotomy="vertical",
             piers=Piers(width=1.0, blocks=2),
         ),
-        "arch, facets": lambda joint: arch(joint, radius=2.0, thickness=0.5, voussoirs=7, facets=4),
-        "arch, fill": lambda joint: arch(
-            joint,
+        "arch, facets": partial(arch, radius=2.0, thickness=0.5, voussoirs=7, facets=4),
+        "arch, fill": partial(
+            arch,
             radius=2.0,
             thickness=0.4,
             voussoirs=13,
             piers=Piers(width=1.0, blocks=2),
             fill=Fill(height=0.3),
         ),
-        "arch, piers": lambda joint: arch(
-            joint, radius=2.0, thickness=0.4, voussoirs=13, piers=Piers(width=0.9, blocks=3)
+        "arch, piers": partial(
+            arch, radius=2.0, thickness=0.4, voussoirs=13, piers=Piers(width=0.9, blocks=3)
         ),
-        "arch_bridge": lambda joint: arch_bridge(
-            joint, span=3.0, rise=0.8, thickness=0.4, voussoirs=9, spans=2, pier_width=0.9, rings=2
+        "arch_bridge": partial(
+            arch_bridge, span=3.0, rise=0.8, thickness=0.4, voussoirs=9, spans=2, pier_width=0.9, rings=2
         ),
-        "segmental_arch": lambda joint: segmental_arch(
-            joint, span=4.0, rise=0.8, thickness=0.3, voussoirs=11, piers=Piers(width=1.2, blocks=2)
+        "segmental_arch": partial(
+            segmental_arch, span=4.0, rise=0.8, thickness=0.3, voussoirs=11, piers=Piers(width=1.2, blocks=2)
         ),
-        "pointed_arch": lambda joint: pointed_arch(joint, span=3.0, rise=2.5, thickness=0.4, voussoirs=14),
-        "elliptical_arch": lambda joint: elliptical_arch(
-            joint, span=4.0, rise=1.5, thickness=0.4, voussoirs=13
+        "pointed_arch": partial(pointed_arch, span=3.0, rise=2.5, thickness=0.4, voussoirs=14),
+        "elliptical_arch": partial(elliptical_arch, span=4.0, rise=1.5, thickness=0.4, voussoirs=13),
+        "barrel_vault": partial(barrel_vault, radius=1.5, thickness=0.4, length=1.8, courses=9, stones=3),
+        "groin_vault": partial(
+            groin_vault, radius=2.0, thickness=0.4, length=5.2, courses=9, stone_length=0.8, embrace=2.4
         ),
-        "barrel_vault": lambda joint: barrel_vault(
-            joint, radius=1.5, thickness=0.4, length=1.8, courses=9, stones=3
+        "pavilion_vault": partial(pavilion_vault, radius=2.0, thickness=0.4, courses=9, stone_length=0.8),
+        "dome": partial(dome, radius=2.0, thickness=0.3, courses=5, stones=10),
+        "dome, oculus": partial(
+            dome, radius=2.0, thickness=0.3, courses=4, stones=10, embrace=2.4, oculus=0.6
         ),
-        "groin_vault": lambda joint: groin_vault(
-            joint, radius=2.0, thickness=0.4, length=5.2, courses=9, stone_length=0.8, embrace=2.4
-        ),
-        "pavilion_vault": lambda joint: pavilion_vault(
-            joint, radius=2.0, thickness=0.4, courses=9, stone_length=0.8
-        ),
-        "dome": lambda joint: dome(joint, radius=2.0, thickness=0.3, courses=5, stones=10),
-        "dome, oculus": lambda joint: dome(
-            joint, radius=2.0, thickness=0.3, courses=4, stones=10, embrace=2.4, oculus=0.6
-        ),
-        "dome_lunes": lambda joint: dome_lunes(
-            joint, radius=2.0, thickness=0.2, voussoirs=15, angle=np.pi / 6
-        ),
-        "stair": lambda joint: stair(joint, treads=7),
-        "cantilever_stair": lambda joint: cantilever_stair(joint, treads=4),
-        "wedge": lambda joint: wedge(joint, half_angle=np.pi / 4),
-        "wedge, two unequal planes": lambda joint: wedge(
-            joint, half_angle=np.pi / 4, plunge=np.pi / 9, tilt=np.pi / 12
-        ),
+        "dome_lunes": partial(dome_lunes, radius=2.0, thickness=0.2, voussoirs=15, angle=np.pi / 6),
+        "stair": partial(stair, treads=7),
+        "cantilever_stair": partial(cantilever_stair, treads=4),
+        "wedge": partial(wedge, half_angle=np.pi / 4),
+        "wedge, two unequal planes": partial(wedge, half_angle=np.pi / 4, plunge=np.pi / 9, tilt=np.pi / 12),
     }
 )
