@@ -90,7 +90,7 @@ KINDS: dict[str, Kind] = {
     ),
     "capacity curve": Kind(
         home=f"{_PRACTICE}.capacity_result:CapacityCurve",
-        section=f"{_REPORTS}.capacity_section:capacity_section",
+        section=f"{_REPORTS}.curve_sections:capacity_section",
     ),
     "verification": Kind(
         home=f"{_PRACTICE}.verification_result:Verification",
@@ -106,7 +106,7 @@ KINDS: dict[str, Kind] = {
     ),
     "settlement until collapse": Kind(
         home=f"{_PRACTICE}.collapse_result:SettlementCurve",
-        section=f"{_REPORTS}.collapse_section:collapse_section",
+        section=f"{_REPORTS}.curve_sections:collapse_section",
     ),
     "repair": Kind(
         home=f"{_PRACTICE}.repair:Repair",

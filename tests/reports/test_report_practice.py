@@ -28,7 +28,7 @@ from limitblocks.practice import (
     worst_position,
 )
 from limitblocks.reports import terminal
-from limitblocks.reports.capacity_section import _changes
+from limitblocks.reports.curve_sections import _changes
 from limitblocks.reports.document import Text
 from limitblocks.reports.facts import facts
 from limitblocks.reports.pdf import GREEK, latin, pdf
