@@ -35,6 +35,21 @@ def jammed(joint):
     return model_of(stones, ["floor", "ceiling"], joint)
 
 
+def pair(behind, front, between):
+    """Two equal low blocks one behind the other, with three joints, pushed along X."""
+    stones = [
+        lb.Block.box("floor", (6.0, 2.0, 0.2), (0, 0, -0.1)),
+        lb.Block.box("behind", (1.0, 1.0, 0.4), (-0.5, 0, 0.2), 20e3),
+        lb.Block.box("front", (1.0, 1.0, 0.4), (0.5, 0, 0.2), 20e3),
+    ]
+    joints = {frozenset(("floor", "behind")): behind, frozenset(("floor", "front")): front}
+    interfaces = [
+        replace(one, joint=joints.get(frozenset((one.block_i, one.block_j)), between))
+        for one in lb.find_interfaces(stones, between)
+    ]
+    return lb.Model(stones, ["floor"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+
+
 def sloping(stone, joint, direction):
     """A block of a unit weight on a slope of 1:2, pushed along `direction`."""
     angle = np.arctan2(1.0, 2.0)

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from stones import pair
 from typer.testing import CliRunner
 
 import limitblocks as lb
@@ -29,21 +30,6 @@ ALONG = lb.mass_proportional((1, 0, 0))
 
 def square(friction):
     return lb.PointContact(friction, cone="outer", sides=4)
-
-
-def pair(behind, front, between):
-    """Two equal low blocks one behind the other, with three joints."""
-    stones = [
-        lb.Block.box("floor", (6.0, 2.0, 0.2), (0, 0, -0.1)),
-        lb.Block.box("behind", (1.0, 1.0, 0.4), (-0.5, 0, 0.2), 20e3),
-        lb.Block.box("front", (1.0, 1.0, 0.4), (0.5, 0, 0.2), 20e3),
-    ]
-    joints = {frozenset(("floor", "behind")): behind, frozenset(("floor", "front")): front}
-    interfaces = [
-        replace(one, joint=joints.get(frozenset((one.block_i, one.block_j)), between))
-        for one in lb.find_interfaces(stones, between)
-    ]
-    return lb.Model(stones, ["floor"], interfaces, lb.self_weight(), ALONG)
 
 
 def pair_range(behind, front, between):

@@ -287,8 +287,7 @@ def test_fill_on_one_side_of_a_wall_from_the_shell(tmp_path):
         lb.Block.box("ground", (8, 1, 0.4), (0, 0, -0.2)),
         lb.Block.prism("wall", outline, (0, 1), 20e3),
     ]
-    joints = lb.find_interfaces(stones, lb.PointContact(0.3))
-    wall = lb.Model(stones, ["ground"], joints, lb.self_weight(), lb.mass_proportional((-1, 0, 0)))
+    wall = model_of(stones, ["ground"], lb.PointContact(0.3), (-1, 0, 0))
     file, held, whole = wall.save(tmp_path / "wall.json"), tmp_path / "held.json", tmp_path / "whole.json"
     fill = ("--level", 2, "--unit-weight", 18e3, "--passive", 3)
     done = run("backfill", file, *fill, "--weight", "--beyond", 0, 0, "--towards", 1, 0, "-o", held)

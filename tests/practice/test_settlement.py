@@ -232,10 +232,7 @@ def test_a_stone_propped_between_supports_is_not_said_to_jam_alone():
         lb.Block.box("pier", (0.5, 1.0, 1.2), (0.75, 0, 0.5)),
         lb.Block.box("stone", (1.0, 1.0, 1.0), (0, 0, 0.5), 20e3),
     ]
-    joints = lb.find_interfaces(stones, lb.PointContact(0.6))
-    model = lb.Model(
-        stones, ["floor", "wall", "pier"], joints, lb.self_weight(), lb.mass_proportional((1, 0, 0))
-    )
+    model = model_of(stones, ["floor", "wall", "pier"], lb.PointContact(0.6), (1, 0, 0))
     with pytest.raises(lb.errors.UnlimitedLoad, match=r"'pier': .* between what settles and another support"):
         settlement(model, "pier", DOWN)
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from facades import ARM, FC, FLOOR, SITE, WEIGHT, G, H, T
-from stones import model_of
+from stones import model_of, pair
 
 import limitblocks as lb
 from limitblocks.evidence.ending import Status
@@ -327,31 +327,15 @@ def test_a_block_that_is_lifted_only_does_work():
 
 def test_where_sliding_counts_alpha0_is_said_to_be_one_answer():
     """Docs of the range: of two stones .2 and .5 smooth, .6 between, from .33884 to .36709 solve."""
-    stones = [
-        lb.Block.box("floor", (6.0, 2.0, 0.2), (0, 0, -0.1)),
-        lb.Block.box("behind", (1.0, 1.0, 0.4), (-0.5, 0, 0.2), 20e3),
-        lb.Block.box("front", (1.0, 1.0, 0.4), (0.5, 0, 0.2), 20e3),
-    ]
-    beds = {"behind": lb.PointContact(0.2), "front": lb.PointContact(0.5)}
-
-    def joint(one, other):
-        return lb.PointContact(0.6) if one.name != "floor" else beds[other.name]
-
-    pair = lb.Model(
-        stones,
-        ["floor"],
-        lb.find_interfaces(stones, joint),
-        lb.self_weight(),
-        lb.mass_proportional((1, 0, 0)),
-    )
-    found = lb.load_factor_range(pair, paths=3, mechanisms=2)
+    two = pair(*map(lb.PointContact, (0.2, 0.5, 0.6)))
+    found = lb.load_factor_range(two, paths=3, mechanisms=2)
     least = min((one.solution for one in found.answers), key=lambda one: one.load_factor)
-    said = verification(pair, least, SITE, q=2.0)
+    said = verification(two, least, SITE, q=2.0)
     assert said["alpha0"] == pytest.approx(0.35 - 0.6 * 0.3**2 / (4 + 2 * 0.6 * 0.7))
-    associated = lb.bounds(pair).upper
+    associated = lb.bounds(two).upper
     assert said.remarks[0].startswith("alpha0 = 0.3388 is one answer, others may solve as well, up to")
     assert f"{associated:.4g} (associated)" in said.remarks[0]
-    assert verification(pair, lb.bounds(pair), SITE, q=2.0).remarks[0].startswith("alpha0 is associated")
+    assert verification(two, lb.bounds(two), SITE, q=2.0).remarks[0].startswith("alpha0 is associated")
 
 
 def test_what_rounding_leaves_of_prestress_is_no_force():
