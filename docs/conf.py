@@ -36,6 +36,9 @@ napoleon_use_ivar = False
 python_use_unqualified_type_names = True
 toc_object_entries = False
 
+nitpicky = True  # a reference in a docstring that leads nowhere is a fault
+nitpick_ignore_regex = [("py:class", r"(?!limitblocks\.).*")]  # napoleon takes the words of a type for names
+
 html_theme = "furo"
 html_title = f"limitblocks {release}"
 html_math_renderer = "mathml"  # of generated: no script, no font, no network

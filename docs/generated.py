@@ -72,8 +72,9 @@ def api(module_name):
         elif not inspect.ismodule(thing):
             kinds["Classes"].append((name, ["autodata", "   :no-value:"]))
     groups = [_group(module_name, kind, names) for kind, names in kinds.items() if names]
+    target = f"```{{eval-rst}}\n.. py:module:: {module_name}\n```\n"
     also = f"Also here: {', '.join(f'`{name}`' for name in above)}, see above.\n" if above else ""
-    return "\n".join([also, *groups])
+    return "\n".join([target, also, *groups])
 
 
 def _group(module, title, entries):

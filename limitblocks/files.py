@@ -3,7 +3,9 @@
 from limitblocks.geometry import Selection, select
 from limitblocks.io import (
     ImportedBlocks,
+    LikelySupports,
     Look,
+    SeenBlock,
     look,
     model_schema,
     read,
@@ -21,7 +23,9 @@ from limitblocks.reports import report_schema
 
 __all__ = [
     "ImportedBlocks",
+    "LikelySupports",
     "Look",
+    "SeenBlock",
     "Selection",
     "look",
     "model_schema",

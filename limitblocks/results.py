@@ -8,13 +8,17 @@ from limitblocks.evidence.claim import Claim
 from limitblocks.evidence.ending import Status
 from limitblocks.evidence.interface_states import InterfaceStates
 from limitblocks.evidence.load_path_result import LoadPath, PathStep, Snap
+from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.range_answer import Origin, RangeAnswer
-from limitblocks.evidence.range_result import LoadFactorRange
+from limitblocks.evidence.range_result import Extreme, LoadFactorRange, Wedging
+from limitblocks.evidence.residuals import Residual, Residuals
 from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.evidence.sensitivity_result import Influence, LoadPosition, Sensitivities
 from limitblocks.evidence.stability_result import Stability, Standing
 from limitblocks.geometry import Contacts, Healed
+from limitblocks.geometry.findings import NearMiss, Overlap, Sliver, Through
 from limitblocks.notebook import View
+from limitblocks.problem import Mode
 from limitblocks.reports import Report
 
 __all__ = [
@@ -24,6 +28,7 @@ __all__ = [
     "Claim",
     "Contacts",
     "Diagnosis",
+    "Extreme",
     "Healed",
     "Influence",
     "InterfaceStates",
@@ -31,17 +36,26 @@ __all__ = [
     "LoadFactorRange",
     "LoadPath",
     "LoadPosition",
+    "Mode",
+    "NearMiss",
     "Nonassociated",
     "Origin",
+    "Overlap",
     "PathStep",
+    "Proof",
     "RangeAnswer",
     "Report",
+    "Residual",
+    "Residuals",
     "Sensitivities",
+    "Sliver",
     "Snap",
     "Stability",
     "Standing",
     "Status",
+    "Through",
     "View",
+    "Wedging",
 ]
 
 

@@ -1,9 +1,12 @@
 """The names that users see: few, all there, and loaded when they are used."""
 
 import ast
+import dataclasses
 import inspect
+import re
 import subprocess
 import sys
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -72,6 +75,16 @@ def test_a_part_shows_its_public_names_alone(part):
     if part != "units":
         assert dir(module) == module.__all__ == sorted(module.__all__)
     assert all(hasattr(module, name) for name in dir(module))
+
+
+def test_what_a_public_class_holds_is_public_too():
+    sources = (file.read_text(encoding="utf-8") for file in Path(lb.__file__).parent.rglob("*.py"))
+    ours = set(re.findall(r"^class (\w+)", "\n".join(sources), re.MULTILINE))
+    things = [getattr(module, name) for module in (lb, *map(lb.__getattr__, PARTS)) for name in dir(module)]
+    classes = [thing for thing in things if dataclasses.is_dataclass(thing)]
+    held = {word for one in classes for part in fields(one) for word in re.findall(r"\w+", str(part.type))}
+    inner = {"Labels", "Result", "State", "Term"}  # of a report, of any analysis, of the problem, of a load
+    assert held & ours - {one.__name__ for one in things if inspect.isclass(one)} == inner
 
 
 def test_what_is_public_in_two_places_is_one_thing():

@@ -71,8 +71,7 @@ def bounds(model: Model, *, tolerance: float = OF_BOUNDS, progress: Tell | None 
     model : Model
         The structure.
     tolerance : float
-        Largest gap and residual accepted: every block measured by what acts on it, see
-        :mod:`limitblocks.evidence.residuals`.
+        Largest gap and residual accepted, dimensionless; see :class:`limitblocks.results.Residuals`.
     progress : callable, optional
         Called with the name of each stage as it begins.
 

@@ -72,7 +72,7 @@ def diagnose(
     model : Model
     gap, angle, width : float, optional
         Tolerances of :func:`limitblocks.find_interfaces`; left out, those that the model was made with
-        (:attr:`limitblocks.Model.tolerances`), and where it says none, chosen by the accuracy of its faces.
+        (`Model.tolerances`), and where it says none, chosen by the accuracy of its faces.
 
     Raises
     ------

@@ -43,7 +43,7 @@ def sensitivities(model: Model, bounds: Bounds) -> Sensitivities:
     By the friction, cohesion, compressive and tensile strength of each interface, by the unit weight of each
     block, and by the position of each load that acts at a point. Nothing is solved again: the envelope
     theorem needs the two states of the bounds alone, and two assemblies for each kind of datum. For the shape
-    see :func:`shape_sensitivity`.
+    see :func:`limitblocks.studies.shape_sensitivity`.
 
     Where the mechanism or the stress state is not unique, the load factor has a kink in some data:
     derivatives to both sides differ, and those of the states at hand are returned, which lie between if one
@@ -108,7 +108,7 @@ def shape_sensitivity(model: Model, bounds: Bounds, field: Field, *, step: float
     Returns
     -------
     float
-        Per unit of t; see :func:`sensitivities` for what it is where the load factor has a kink.
+        Per unit of t; see :func:`limitblocks.sensitivities` for what it is where the load factor has a kink.
 
     Raises
     ------

@@ -39,7 +39,7 @@ def stability(model: Model) -> Stability:
     Stresses within the yield surface that carry the dead loads are found as far within it as they can be, or
     a mechanism proves that there are none (static and kinematic theorem). Where they exist, the dead loads
     are put on unstressed blocks with slightly compliant joints and zero dilatancy: only if that brings
-    about such stresses does the structure stand by itself, see :mod:`limitblocks.analysis.unstressed`.
+    about such stresses does the structure stand by itself.
 
     Parameters
     ----------

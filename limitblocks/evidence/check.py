@@ -44,9 +44,9 @@ class Check(Result):
     Attributes
     ----------
     residuals : Residuals
-        See :func:`limitblocks.evidence.residuals.mcp_residuals`; and "standing": how far the dead loads alone
-        are from standing. Without that, a solution is no collapse: a structure that falls already has trivial
-        ones. Of a load path "steps", too: the most that a step is off equilibrium at its load factor.
+        Of Eqs (54)-(59); and "standing": how far the dead loads alone are from standing. Without that, a
+        solution is no collapse: a structure that falls already has trivial ones. Of a load path "steps", too:
+        the most that a step is off equilibrium at its load factor.
     tolerance : float
         Largest residual of a solution.
     backward_error : BackwardError
@@ -123,10 +123,9 @@ class Check(Result):
 def check_mcp(model: Model, result: Any, *, tolerance: Any = None, backward_error: Any = None) -> Check:
     """Check a claimed solution residual by residual, Eqs (54)-(59).
 
-    Residuals are dimensionless: every block is measured by what acts on it, every interface by its own
-    force, see :mod:`limitblocks.evidence.residuals`. Undefined is infinite. A missing mechanism, missing
-    multipliers and a missing state of the dead loads alone are searched for, so that a load factor with its
-    stress resultants is enough.
+    Residuals are dimensionless, see :class:`limitblocks.results.Residuals`. Undefined is infinite. A missing
+    mechanism, missing multipliers and a missing state of the dead loads alone are searched for, so that a
+    load factor with its stress resultants is enough.
 
     Parameters
     ----------

@@ -78,8 +78,8 @@ class InterfaceStates(Tabular):
         Force that block i exerts on block j, global axes, N; block i feels the opposite.
     utilisation : Array, shape (m,)
         How much of the strength is used, N held, or of the compressive or tensile strength by N itself, from
-        0 to 1 on the yield surface; see :func:`limitblocks.evidence.utilisation.utilisation`. 0 without
-        a force or moment.
+        0 to 1 on the yield surface; of point contacts that of the forces of the points which carry most.
+        0 without a force or moment.
     """
 
     names: tuple[str, ...]

@@ -25,7 +25,19 @@ POWER = "the power of the interface's own force on it over that of the live load
 
 @dataclass(frozen=True)
 class Residual:
-    """One recomputed condition: its name, its value (dimensionless, >= 0), what it measures, and where."""
+    """One recomputed condition.
+
+    Attributes
+    ----------
+    name : str
+        Such as "equilibrium".
+    value : float
+        Dimensionless, >= 0.
+    meaning : str
+        What it measures.
+    where : str
+        Interface or block where it is largest.
+    """
 
     name: str
     value: float
@@ -46,7 +58,15 @@ def nearest(tried: Sequence[Residual], what: str) -> str:
 
 @dataclass(frozen=True, repr=False)
 class Residuals(Tabular):
-    """Residuals of a claimed solution. Undefined values (NaN) count as infinite."""
+    """Residuals of a claimed solution, dimensionless. Undefined values (NaN) count as infinite.
+
+    Every block is measured by what acts on it, every interface by what acts on the lesser of its blocks, a
+    rate by the power of that force on it over that of the live load. ``residuals["flow"]`` is one by name.
+
+    Attributes
+    ----------
+    entries : tuple of Residual
+    """
 
     entries: tuple[Residual, ...]
 

@@ -68,7 +68,7 @@ def read(
     supports : str, iterable of str, or function of a Block, optional
         Blocks that do not move, as for :func:`limitblocks.files.select`: names of blocks or layers,
         "layer:BASE*", "z<0.05", or a function; left out, those that the file marks:
-        :attr:`ImportedBlocks.supports`.
+        `ImportedBlocks.supports`.
     unit_weight : float or mapping of str to float, optional
         N/m3, of all blocks or by layer.
     units : str, optional
@@ -83,7 +83,7 @@ def read(
         Loads; `dead` is self weight if left out.
     gap, angle, width : float, optional
         Tolerances of :func:`limitblocks.find_interfaces`, in block lengths and rad; left out, chosen by the
-        accuracy of the faces. :attr:`limitblocks.Model.tolerances` says which were used.
+        accuracy of the faces. `Model.tolerances` says which were used.
 
     Raises
     ------

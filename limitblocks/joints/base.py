@@ -47,7 +47,7 @@ class YieldRows:
     cones : tuple of int
         Sizes of the second-order cones that follow; they add up to r - linear.
     modes : tuple of Mode or str
-        Failure mode of each row, in the paper's words; see :class:`limitblocks.problem.Mode`.
+        Failure mode of each row; see :class:`limitblocks.results.Mode`.
     friction : float
         Friction coefficient: the dilatancy (tangent of its angle) at which the flow becomes associated.
     """

@@ -45,7 +45,7 @@ class ExactTorsion(Queries):
 
     The exact yield set meant here has (V1, V2, T) within mu |N| times the limit surface of the whole polygon
     (Goyal, Ruina & Papadopoulos 1991), |T| within the strength of the effective area (Eqs 19-20 and their
-    generalisation, :func:`~limitblocks.joints.interaction.effective_areas`), and N, M1, M2 within hinging.
+    generalisation, `limitblocks.joints.interaction.effective_areas`), and N, M1, M2 within hinging.
     Two linear programs, one on each side, bracket its static load factor:
 
     - side="inner" is safe: the convex hull of points of the limit surface. `discretisation_error` is how

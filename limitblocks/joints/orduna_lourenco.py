@@ -89,7 +89,7 @@ class OrdunaLourenco(Queries):
     friction : float
         Friction coefficient mu >= 0. With zero friction and cohesion the interface carries N, M1, M2 only.
     compressive_strength : float, optional
-        Effective strength fcef, Pa (Eqs 41-42: :func:`~limitblocks.joints.interaction.effective_strength`);
+        Effective strength fcef, Pa (Eqs 41-42: :func:`limitblocks.joints.effective_strength`);
         infinite unless given.
     slip : {"exact", "paper", "inner", "outer"}
         The Coulomb circle of Eqs (24)-(29) itself (second-order cones), as the paper's octagon, or as a

@@ -167,7 +167,7 @@ def interface_states(
     model : Model
         The structure.
     result : Bounds, Nonassociated or LoadPath
-        Of this model; see :func:`limitblocks.evidence.interface_states.interface_states`.
+        Of this model; see :func:`limitblocks.interface_states`.
     ax, plane
         As for :func:`structure`.
 

@@ -8,6 +8,7 @@ from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, C
 from limitblocks.practice.collapse import settlement_to_collapse
 from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
 from limitblocks.practice.elements import Element, dowel, reinforced, strip, tie
+from limitblocks.practice.moving_masses import MovingMass
 from limitblocks.practice.partial_factors import PartialFactors
 from limitblocks.practice.repair import Repair, least_masses, least_ties
 from limitblocks.practice.rocking import Rocking, elastic_period, element_acceleration, element_force
@@ -31,6 +32,7 @@ __all__ = [
     "Floor",
     "FloorMode",
     "Inequality",
+    "MovingMass",
     "PartialFactors",
     "Quantity",
     "Repair",

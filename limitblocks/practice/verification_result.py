@@ -37,7 +37,7 @@ class Quantity:
     source : str
         Section that names it.
     step : str
-        Of the verification; one of :data:`STEPS`.
+        "activation", "demand", "linear", "SLV" or "SLC".
     """
 
     symbol: str

@@ -9,15 +9,7 @@ from enum import StrEnum
 
 
 class Mode(StrEnum):
-    """Failure mode of a yield row; the value is the paper's word.
-
-    Attributes
-    ----------
-    opens : bool
-        One side of the interface lifts (hinging, crushing, opening of a point): the flow is associated.
-    slides : bool
-        The interface slides.
-    """
+    """Failure mode of a yield row; the value is the paper's word."""
 
     SLIP = "slip"
     TWIST = "twist"
@@ -31,7 +23,7 @@ class Mode(StrEnum):
 
     @property
     def opens(self) -> bool:
-        """Whether one side lifts."""
+        """Whether one side lifts (hinging, crushing, opening of a point): the flow is associated."""
         return self in (Mode.HINGE, Mode.CRUSH, Mode.OPEN)
 
     @property

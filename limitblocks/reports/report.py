@@ -38,7 +38,7 @@ from limitblocks.shown import many
 
 @dataclass(frozen=True, eq=False)
 class Report:
-    """Results of analyses of one model, to be filed and shown; made by :func:`report`.
+    """Results of analyses of one model, to be filed and shown; made by :func:`limitblocks.report`.
 
     Attributes
     ----------
@@ -99,7 +99,7 @@ class Report:
         return scene(self.model, self.results, self.title)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the content as plain numbers, lists and text, SI units; see :func:`report_schema`."""
+        """Return plain numbers, lists and text, SI units; see :func:`limitblocks.files.report_schema`."""
         found = answer(self.sections)
         demand = self.labels.demand
         said = verdict(found, demand) if demand is not None else None

@@ -39,8 +39,8 @@ class Threshold(Rows):
     load_factor : float
         Of the live load that acts beside the dead loads.
     trials : tuple of (float, float)
-        Every value tried with its margin, see :func:`limitblocks.analysis.stability.standing_margin`; down to
-        -1e-8, the tolerance of all residuals, it counts as standing.
+        Every value tried with its margin, as in :class:`limitblocks.results.Stability`; down to -1e-8, the
+        tolerance of all residuals, it counts as standing.
     remarks : tuple of str
         What to know of the stresses at the safe end.
     """
@@ -100,9 +100,9 @@ def minimum(
     """Return the least value of a parameter for which the loads stand, such as the thickness of an arch.
 
     The structure of `low` falls and that of `high` stands; in between there is one change. Brent's method
-    (scipy.optimize.brentq) finds where the margin of :func:`limitblocks.analysis.stability.standing_margin`
-    passes zero, and trials on both sides of it close the bracket. The dead loads are those of the model;
-    with a load factor its live load acts, too. The flow is associated: for sliding without dilatancy,
+    (scipy.optimize.brentq) finds where the margin, as in :class:`limitblocks.results.Stability`, passes zero,
+    and trials on both sides of it close the bracket. The dead loads are those of the model; with a load
+    factor its live load acts, too. The flow is associated: for sliding without dilatancy,
     standing in this sense is necessary, not sufficient.
 
     Parameters

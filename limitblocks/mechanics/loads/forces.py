@@ -160,8 +160,9 @@ def added_mass(
 ) -> AddedMass:
     """Return a mass without volume, such as a floor, fixed to the block named `block` at the point `at` (m).
 
-    Give it to :func:`self_weight` and to :func:`mass_proportional`, both: then it counts in the dead and in
-    the live load like the weight of the blocks. It takes no strength: the joints are those of the blocks.
+    Give it to :func:`limitblocks.self_weight` and to :func:`limitblocks.mass_proportional`, both: then it
+    counts in the dead and in the live load like the weight of the blocks. It takes no strength: the joints
+    are those of the blocks.
 
     Parameters
     ----------
