@@ -31,7 +31,8 @@ def beyond_stress_block(model: Model, stress_resultants: Array, then: str = TOO_
             strengths, tensions = np.array([_strengths(one.joint) for one in own]).T
             polygons = np.array([one.polygon for one in own])
             found = over_stress_block(polygons, strengths, stress_resultants[some], tensions, SAID)
-            over |= zip((one.name for one in own), found.tolist(), strict=True)
+            for one, times in zip(own, found.tolist(), strict=True):
+                over[one.name] = max(over.get(one.name, 0.0), times)  # pieces of an area share a name
     told = [name for name in over if over[name] > SAID]
     if not told:
         return ()

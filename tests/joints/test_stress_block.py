@@ -152,3 +152,18 @@ def test_all_joints_beyond_the_stress_block_are_counted(many, monkeypatch):
     (said,) = crushing.beyond_stress_block(model, Q)
     assert "ground|foot 2 carries 1.50 times" in said
     assert "the most of 3 joints with too large a moment" in said
+
+
+def test_each_piece_of_an_area_is_asked_for_its_moment():
+    """A dart is two triangles; with N at (1 - n) times a corner of either one it has 1 + sqrt(n) there."""
+    share, strength = 0.09, 1e6
+    stones = prism([(0, 0), (3, -2), (1, 0), (3, 2)], 1.0)
+    found = lb.find_interfaces(stones, lb.OrdunaLourenco(0.6, compressive_strength=strength))
+    assert [len(one.polygon) for one in found] == [3, 3]
+    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    for bent, own in enumerate(found):
+        e = (1.0 - share) * own.polygon[0]
+        Q = np.zeros((2, 6))
+        Q[bent] = share * strength * 1.0 * np.array([0, 0, -1, -e[1], e[0], 0])  # a triangle of 1 m2
+        (said,) = crushing.beyond_stress_block(model, Q)
+        assert "ground|foot carries 1.30 times" in said
