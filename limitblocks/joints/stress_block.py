@@ -15,6 +15,7 @@ from limitblocks.geometry.polygon import areas, cross, following
 
 CHORDS = 8, 64  # cuts that start from each side; the fewer, the larger a moment seems
 LEAST = 1e-9  # share of the area: less does not crush
+CENTRAL = 1e-6  # of the way to the edge, the tolerance of bounds: N off the centroid by less does not bend
 
 CRUSHING = (
     "Crushing reduces the moment that a joint carries, Eq. (39), not its shear or torsion. The equation is "
@@ -68,16 +69,19 @@ def over_stress_block(
     Returns
     -------
     Array, shape (m,)
-        At most 1 where the joint does not crush; at most 5e-4 too large. 0 without bending, infinite at or
-        beyond N = -A strength with it.
+        At most 1 where the joint does not crush; at most 5e-4 too large. 0 without bending beyond rounding,
+        infinite at or beyond N = -A strength with it.
     """
     area = areas(polygons)
     forces = tensions * area - Q[:, 2]
     shares = forces / ((strengths + tensions) * area)
-    bent = (shares >= LEAST) & Q[:, 3:5].any(axis=1)
-    over = np.where(bent, np.inf, 0.0)
-    some = np.flatnonzero(bent & (shares <= 1.0 - LEAST))
+    over = np.zeros(len(Q))
+    some = np.flatnonzero(shares >= LEAST)
     e = np.stack([Q[some, 4], -Q[some, 3]], axis=1) / forces[some, None]  # where N acts
+    bent = _times_as_far(e, polygons[some]) > CENTRAL
+    e, some = e[bent], some[bent]
+    over[some] = np.inf
+    e, some = e[shares[some] <= 1.0 - LEAST], some[shares[some] <= 1.0 - LEAST]
     # (1 - n) / (1 + sqrt(n)) = 1 - sqrt(n) times the polygon is within reach of the stress block
     near = _times_as_far(e, polygons[some]) >= least * (1.0 - np.sqrt(shares[some]))
     over[some[~near]] = 0.0

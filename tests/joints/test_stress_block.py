@@ -103,6 +103,7 @@ def test_moments_beside_the_stress_block_of_both_strengths():
         assert found == pytest.approx(0.5, abs=5e-4)
     assert _over(RECTANGLE, 1000.0, [1.0, 0, -5.0, 0, 0, 1.0]) == 0.0
     assert _over(RECTANGLE, 5.0 / AREA, [0, 0, -5.0, 1.0, 0, 0]) == np.inf
+    assert _over(RECTANGLE, 5.0 / AREA, [0, 0, -5.0, 1e-12, 0, 0]) == 0.0  # crushed all over: rounding
 
 
 def test_tension_counts_in_what_is_said_of_crushing():
