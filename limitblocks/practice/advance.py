@@ -149,7 +149,8 @@ def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assem
             goal = replace(goal, contacts=tuple(contacts))
             goal, lost = _parted(goal, sliding, least)
             there, said = slid(goal, sliding)
-            return there, _changes(assembly, was, now, least) + lost + said
+            changes = _changes(assembly, was, now, least) + lost + said
+            return there, tuple(dict.fromkeys(changes))  # pieces of an area share a name
         closes &= meets
         secant = (before[closes] / (before - gap)[closes]).min() if closes.any() else 0.5
         share, trials = share * (secant if trials < SECANTS else min(secant, 0.5)), trials + 1

@@ -265,5 +265,17 @@ def placed(own: Contact, blocks: Sequence[Block]) -> Interface:
         if not kept.all():
             resting = [blocks[k] for k in own.ends]
             axes = resting_axes(resting, own.axes_i, own.axes_j, own.rest[kept].mean(axis=0), size)
-        centroid = middle - own.interface.polygon[kept].mean(axis=0) @ axes[:2]
+        ahead = _short_of(own, float((own.on_j - own.on_i)[kept].mean(axis=0) @ own.half_way[2]))
+        centroid = middle + ahead - own.interface.polygon[kept].mean(axis=0) @ axes[:2]
     return replace(own.interface, centroid=read_only(centroid), axes=read_only(axes))
+
+
+def _short_of(own: Contact, gap: float) -> Array:
+    """Return the way (3,), m, from half way across a gap to as far from the hinge as its corner is on a face.
+
+    Corners at r from it part by 2 r sin(turn / 2), and half way is at r cos(turn / 2): pieces would overlap.
+    """
+    hinge = np.cross(own.axes_i[2], own.axes_j[2])
+    sine = max(float(np.linalg.norm(hinge)), 1e-300)
+    turn = np.arctan2(sine, own.axes_i[2] @ own.axes_j[2])
+    return np.asarray(gap / 2.0 * np.tan(turn / 4.0) / sine * np.cross(own.half_way[2], hinge))

@@ -5,6 +5,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.geometry.accuracy import GAP
+from limitblocks.practice import capacity_curve
 from limitblocks.practice.displaced import _screw_shift, assembly_of, moved
 from limitblocks.practice.resting import face_at
 from limitblocks.practice.touching import across, pressed_in
@@ -80,3 +81,21 @@ def test_a_screw_turns_and_shifts_a_point_at_any_angle(angle):
     (shift,) = _screw_shift(np.array([[*velocity[:2], pitch, 0.0, 0.0, angle]]))
     # 1 - cos t without cancellation
     assert shift == pytest.approx([-4.0 * np.sin(angle / 2) ** 2, 2.0 * np.sin(angle), pitch], rel=1e-7)
+
+
+def test_pieces_of_an_opened_joint_do_not_overlap():
+    """A U on a U, a from the toe and h / 2 high: tan(atan(2 a / h) - asin(d / h)), d that of its corner."""
+    outline = [(0, 0), (1, 0), (1, 0.2), (0.2, 0.2), (0.2, 0.8), (1, 0.8), (1, 1), (0, 1)]
+    a, h = 1 - (0.2 * 1.0 * 0.1 + 2 * 0.8 * 0.2 * 0.6) / (0.2 + 2 * 0.8 * 0.2), 4.0
+    stones = [
+        lb.Block.prism("foot", outline, (-1.0, 0.0), along="z"),
+        lb.Block.prism("shaft", outline, (0.0, h), 20e3, along="z"),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.6))
+    assert len(found) == 3
+    model = lb.Model(stones, ["foot"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    curve = capacity_curve(model, control=("shaft", (1.0, 0.0, h)), steps=3)
+    factors = [np.tan(np.arctan(2 * a / h) - np.arcsin(one.displacement / h)) for one in curve.points]
+    assert [one.load_factor for one in curve.points] == pytest.approx(factors, abs=1e-8)
+    assert curve.zero == pytest.approx(h * np.sin(np.arctan(2 * a / h)), abs=1e-6)
+    assert curve.points[1].changes == ("foot|shaft opens",)  # once, not for each piece
