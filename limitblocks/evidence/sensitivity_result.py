@@ -124,10 +124,12 @@ class Sensitivities(Result):
         ]
 
     def _influences(self) -> list[Influence]:
-        """All of them, the largest first."""
-        frictions = zip(self.interfaces, self.of_interfaces.tolist(), strict=True)
+        """All of them, the largest first; a joint in pieces, which share its name, is one."""
+        frictions: dict[str, float] = {}
+        for name, share in zip(self.interfaces, self.of_interfaces.tolist(), strict=True):
+            frictions[name] = frictions.get(name, 0.0) + share
         weights = zip(self.blocks, self.of_blocks.tolist(), strict=True)
-        found = [Influence("friction", *pair) for pair in frictions]
+        found = [Influence("friction", *pair) for pair in frictions.items()]
         found += [Influence("unit weight", *pair) for pair in weights]
         return sorted(found, key=lambda one: -abs(one.elasticity))
 

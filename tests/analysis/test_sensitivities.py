@@ -274,6 +274,21 @@ def test_governing_joints_and_stones_come_first():
     assert str(first[0]).startswith(f"{first[0].kind} of {first[0].name}")
 
 
+def test_a_joint_in_pieces_is_one():
+    """An L slides at mu: the load factor changes with the friction of its joint one to one."""
+    outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 3), (0, 3)]
+    stones = [
+        lb.Block.box("ground", (9.0, 9.0, 1.0), (0.0, 0.0, -0.5)),
+        lb.Block.prism("foot", outline, (0.0, 0.1), 20e3, along="z"),
+    ]
+    model = model_of(stones, ["ground"], lb.PointContact(0.3))
+    assert len(model.interfaces) == 2
+    (influence,) = of(model).governing()
+    assert (influence.kind, influence.name) == ("friction", "ground|foot")
+    assert influence.elasticity == pytest.approx(0.3)
+    assert sorted(row["name"] for row in of(model).rows()) == ["foot", "ground", "ground|foot"]
+
+
 def test_bounds_of_another_model_are_refused():
     model, other = block(lb.PointContact(0.3)), block(lb.PointContact(0.4))
     with pytest.raises(ModelError, match="this Bounds belongs to model"):
