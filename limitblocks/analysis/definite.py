@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.linalg.lapack import dpbtrf, dpbtrs
+from scipy.linalg import cho_solve_banded, cholesky_banded
 from scipy.sparse import csgraph, linalg
 
 from limitblocks.arrays import Array, Indices
@@ -50,13 +50,11 @@ def _banded(
     lower = below >= 0
     band[below[lower], column[lower]] = data[lower]
     band[0] += more[order]
-    factor, failed = dpbtrf(band, lower=True, overwrite_ab=True)
-    if failed:
-        raise np.linalg.LinAlgError
+    factor = cholesky_banded(band, overwrite_ab=True, lower=True, check_finite=False)
 
     def solve(b: Array) -> Array:
         x = b / more
-        x[order], _ = dpbtrs(factor, b[order], lower=True, overwrite_b=True)
+        x[order] = cho_solve_banded((factor, True), b[order], overwrite_b=True, check_finite=False)
         return x
 
     return solve
