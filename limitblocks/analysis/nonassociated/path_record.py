@@ -23,6 +23,19 @@ RETURNS = "springs back"
 EARLY, FADED = "compliance faded first", "barrier faded first"
 BORNE = "% of the load factor on its barrier"
 
+#: What is said of an answer that a way led to which is not the load path, the first that is in its words.
+LED_BY = {
+    LARGE: "a large barrier led to this solution: it is not that of the load path, and is mostly higher",
+    EARLY: "a path on which compliance fades before the barrier led to this solution: it need not be that "
+    "of the load path, which load_path follows",
+    DISPLACED: "loading with rounded corners of yield, and rounds of the fixed point from there, led to this "
+    "solution: it need not be that of the load path",
+    ROUNDS: "rounds of the fixed point led to this solution from a path that did not end: it need not be "
+    "that of the load path",
+    FROZEN: "limit analyses with frozen friction, one after the other, led to this solution: it need not be "
+    "that of the load path",
+}
+
 log = logging.getLogger(ITERATIONS)
 
 
@@ -57,37 +70,8 @@ def off_load_path(how: str) -> tuple[str, ...]:
         )
     if how.startswith(INCREMENTS):
         return symmetric
-    if LARGE in how:
-        return (
-            *symmetric,
-            "a large barrier led to this solution: it is not that of the load path, and is mostly higher; "
-            "load_factor_range shows others",
-        )
-    if EARLY in how:
-        return (
-            *symmetric,
-            "a path on which compliance fades before the barrier led to this solution: it need not be that "
-            "of the load path, which load_path follows; load_factor_range shows others",
-        )
-    if DISPLACED in how:
-        return (
-            *symmetric,
-            "loading with rounded corners of yield, and rounds of the fixed point from there, led to this "
-            "solution: it need not be that of the load path; load_factor_range shows others",
-        )
-    if ROUNDS in how:
-        return (
-            *symmetric,
-            "rounds of the fixed point led to this solution from a path that did not end: it need not be "
-            "that of the load path; load_factor_range shows others",
-        )
-    if how.startswith(FROZEN):
-        return (
-            *symmetric,
-            "limit analyses with frozen friction, one after the other, led to this solution: it need not be "
-            "that of the load path; load_factor_range shows others",
-        )
-    return symmetric
+    led = next((said for way, said in LED_BY.items() if way in how), "")
+    return (*symmetric, f"{led}; load_factor_range shows others") if led else symmetric
 
 
 class Progress(NamedTuple):
