@@ -17,9 +17,9 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.interface_blocks import InterfaceBlocks
 from limitblocks.analysis.scales import Projection, Scaled, compatible
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, owned
+from limitblocks.problem import LimitProblem
 
 ROUNDS = 200
 FEW = 60  # for stresses: those that take more have little room, and one program finds more
@@ -41,7 +41,7 @@ class Splitting:
         square = self.p.F.T @ self.p.F
         if square.nnz == np.count_nonzero(square.diagonal()) == square.shape[0]:  # every row is one stress
             return Projection(self.p.C, sparse.csr_array(sparse.diags_array(1.0 / square.diagonal())))
-        weights = InterfaceBlocks(self.p.problem).inverse(square)
+        weights = inverse_by_interfaces(self.p.problem, square)
         weights.eliminate_zeros()  # between the points of an interface
         return Projection(self.p.C, weights)
 
@@ -90,3 +90,24 @@ class Splitting:
                 return found
             z, room = z + RELAXED * (found - inner), less * room
         return None
+
+
+def inverse_by_interfaces(problem: LimitProblem, matrix: sparse.csr_array) -> sparse.csr_array:
+    """Return the inverse of a symmetric matrix that couples the stresses of one interface only.
+
+    The pseudoinverse if one is singular. Interfaces with fewer stresses are padded with ones.
+    """
+    interface = problem.stress_interface
+    table, place = owned(interface, len(problem.interfaces))
+    there = table < len(place)
+    blocks = np.eye(table.shape[1]) * ~there[:, :, None]
+    entries = matrix.tocoo()
+    rows, columns = entries.coords
+    blocks[interface[rows], place[rows], place[columns]] += entries.data
+    try:
+        inverse = np.linalg.inv(blocks)
+    except np.linalg.LinAlgError:  # a joint is 1e10 times as strong as its loads
+        inverse = np.linalg.pinv(blocks, hermitian=True)
+    inside = there[:, :, None] & there[:, None]
+    own = [np.broadcast_to(part, inside.shape)[inside] for part in (table[:, :, None], table[:, None])]
+    return sparse.coo_array((inverse[inside], tuple(own)), shape=matrix.shape).tocsr()
