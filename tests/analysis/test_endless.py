@@ -8,7 +8,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis.nonassociated import each_way, endless, loaded
+from limitblocks.analysis.nonassociated import each_way, loaded
 from limitblocks.analysis.nonassociated.loading import CLIMBS
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLED
 from limitblocks.analysis.nonassociated.start import state_of
@@ -43,9 +43,9 @@ def test_a_push_without_end_leads_from_the_last_increment_to_a_collapse(build, b
     for remarks in (path.remarks, path.collapse.remarks):
         (remark,) = (one for one in remarks if said in one)
         assert f"they end at load factor {ends:.6g}, and one push without end" in remark
-    assert path.collapse.load_factor == pytest.approx(ends, rel=endless.FAR)
+    assert path.collapse.load_factor == pytest.approx(ends, rel=loaded.FAR)
     assert path.collapse.load_factor == pytest.approx(whole.collapse.load_factor, rel=0.03)
-    monkeypatch.setattr(endless, "_ways", lambda *_: iter(()))
+    monkeypatch.setattr(loaded, "_ways", lambda *_: iter(()))
     with pytest.raises(lb.NotConverged, match="no solution") as caught:
         lb.load_path(build(), settings=short)
     assert said in str(caught.value.__notes__)
@@ -65,7 +65,7 @@ def test_a_push_without_end_has_the_stiffness_of_the_increments(softer, monkeypa
         seen.append(given.flow.problem.compliance)
         yield given.start, "nothing"
 
-    monkeypatch.setattr(endless, "_ways", ways)
+    monkeypatch.setattr(loaded, "_ways", ways)
     short = lb.settings.Settings(budget=60)
     for stiffness in ((1e6, 1e6), (1e6, 1e6 / softer)):
         lb.load_path(model, stiffness=stiffness, settings=short, throw=False)
@@ -78,9 +78,7 @@ def met(monkeypatch, *ends, began=True):
     """What `endless` takes of ends that are solutions, at these shares of the last load factor."""
     flow, state = solution()
     given = SimpleNamespace(flow=flow, tolerance=1e-6)
-    monkeypatch.setattr(
-        endless, "mcp_residuals", lambda *_: SimpleNamespace(worst=SimpleNamespace(value=0.0))
-    )
+    monkeypatch.setattr(loaded, "mcp_residuals", lambda *_: SimpleNamespace(worst=SimpleNamespace(value=0.0)))
     tried = []
 
     def ways(*_):
@@ -88,8 +86,8 @@ def met(monkeypatch, *ends, began=True):
             tried.append(how)
             yield replace(state, load_factor=share * state.load_factor), how
 
-    monkeypatch.setattr(endless, "_ways", ways)
-    found = endless.endless(given, state, began)
+    monkeypatch.setattr(loaded, "_ways", ways)
+    found = loaded.endless(given, state, began)
     return (None if found is None else found[1]), tried
 
 
@@ -119,8 +117,8 @@ def test_nor_one_that_is_no_solution():
     moved = replace(state, x=1.001 * state.x)
     endless_ways = iter([(moved, "moved"), (state, "as it is")])
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(endless, "_ways", lambda *_: endless_ways)
-        assert endless.endless(given, moved)[1] == "as it is"
+        patch.setattr(loaded, "_ways", lambda *_: endless_ways)
+        assert loaded.endless(given, moved)[1] == "as it is"
 
 
 def test_the_user_stops_it_unless_a_solution_is_known(monkeypatch):
