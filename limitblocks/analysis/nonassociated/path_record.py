@@ -6,7 +6,6 @@ import logging
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import NamedTuple
 
 from limitblocks.analysis.nonassociated.path_equations import Barrier
@@ -132,9 +131,3 @@ class Tracked:
         return (
             f"tracked path, {size}{large}, power {self.barrier.power:g}, seed {self.seed}{early}{self.said}"
         )
-
-    @property
-    def folds(self) -> int:
-        """How often theta turned."""
-        signs = [point.sign for point in self.points]
-        return sum(a != b for a, b in pairwise(signs))

@@ -32,22 +32,14 @@ def track(
 
     Parameters
     ----------
-    flow : Flow
-        The limit problem and its flow rule.
-    x0 : Array, shape (s,)
-        Stresses under the permanent loads, dimensionless.
-    weights : Array, shape (s,)
-        Compliance of the joints, which the path follows as long as the barrier is small.
+    flow, x0, weights, seed, power
+        As for :func:`limitblocks.analysis.nonassociated.path_start.path_from`.
     barrier : Barrier, optional
         How compliance and barrier fade; a small barrier by default.
-    seed : int
-        Of the weights of the products.
     budget : int
         Factorisations.
     patience : int, optional
         Factorisations in which theta must fall to a third; a path that takes longer is given up.
-    power : float
-        Unit of the barrier's size, dimensionless.
     progress : callable, optional
         Called with each accepted point.
     closing : callable, optional
