@@ -41,19 +41,20 @@ def of_ties(model: Model) -> Iterator[str]:
 def _of_sections(model: Model) -> Iterator[str]:
     """What is asked about the sections of ties and what they carry, and the widths of strips and dowels."""
     for tie in model.interfaces:
-        bonded = isinstance(tie.joint, Tie) and not tie.joint.length
-        if bonded or (isinstance(tie.joint, Dowel) and not isinstance(tie.joint, Backfill)):
-            width = float(np.sqrt(areas(tie.polygon)))
+        if not isinstance(tie.joint, Tie | Dowel) or isinstance(tie.joint, Backfill):
+            continue  # fill is as wide as the face that presses it
+        section, strength = float(areas(tie.polygon)), tie.joint.strength
+        if not getattr(tie.joint, "length", 0.0):
+            width = float(np.sqrt(section))
             if width > _WIDE:
                 yield f"{tie.name}: it is {width:.4g} m wide: mm? {width:.4g} mm = {width / 1e3:.4g} m"
-        if isinstance(tie.joint, Tie) and tie.joint.length:
-            section, strength = float(areas(tie.polygon)), tie.joint.strength
-            if section > _THICK:
-                small = f"{section:.4g} mm2 = {section / 1e6:.4g} m2"
-                yield f"{tie.name}: its section is {section:.4g} m2: mm2? {small}"
-            if strength < _SOFT:
-                what = f"it carries {section * strength:.4g} N, {strength:.4g} Pa on its section"
-                yield f"{tie.name}: {what}: MPa, or kN?"
+            continue
+        if section > _THICK:
+            small = f"{section:.4g} mm2 = {section / 1e6:.4g} m2"
+            yield f"{tie.name}: its section is {section:.4g} m2: mm2? {small}"
+        if strength < _SOFT:
+            what = f"it carries {section * strength:.4g} N, {strength:.4g} Pa on its section"
+            yield f"{tie.name}: {what}: MPa, or kN?"
 
 
 def _of_prestress(model: Model) -> Iterator[str]:

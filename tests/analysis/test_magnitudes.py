@@ -313,6 +313,15 @@ def test_fill_on_both_faces_of_a_roof_is_not_given_twice():
     assert "fill resists 'block' twice at one place" in said
 
 
+def test_fill_is_as_wide_as_the_face_that_presses_it():
+    """5 m high and 8 m wide, more than the 16 m2 of a strip that may be in millimetres."""
+    wedge = lb.Block.prism("block", [(0.0, 0.0), (5.0, 0.0), (0.0, 5.0)], (0.0, 8.0), unit_weight=20e3)
+    ground = lb.Block.box("ground", size=(6.0, 9.0, 0.2), at=(2.5, 4.0, -0.1))
+    model = model_of([wedge, ground], ["ground"], lb.PointContact(0.6))
+    (fill,) = passive_fill(model, 6.0, unit_weight=18e3, coefficient=3.0)
+    assert questions(reinforced(model, fill)) == []
+
+
 @pytest.mark.parametrize(
     ("off", "rounded"), [(5e6, ""), (1e9, ""), (2e9, "2e-07"), (5e12, "0.001")]
 )  # m: a northing of a map; 2 m large, from 1e-7 of that on
