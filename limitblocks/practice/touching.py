@@ -139,8 +139,7 @@ def _answered(model: Model) -> tuple[float, Model, Nonassociated]:
         return 0.0, model, solved(nonassociated, model)
     except NoEquilibrium:
         problem = model.problem
-        least = NearestStresses(problem, problem.compliance)
-        found = least.find(np.zeros(len(problem.compliance)), np.zeros(len(problem.g)))
+        found = NearestStresses(problem).find(np.zeros(len(problem.compliance)), np.zeros(len(problem.g)))
         if found is None:
             raise
         shift = -found[0] / problem.units.live

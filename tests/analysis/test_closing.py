@@ -45,7 +45,7 @@ def test_rounds_close_a_path_that_was_stopped():
     power = load_scale(problem, scale) / len(problem.blocks)
     state, _ = follow(flow, x0, problem.compliance, means=[stopped], power=power)
     assert defect(flow, state) > 1e-3
-    found, rounds = closing.closed(flow, NearestStresses(problem, problem.compliance), state, 1e-8)
+    found, rounds = closing.closed(flow, NearestStresses(problem), state, 1e-8)
     assert defect(flow, found) <= 1e-8
     assert rounds < 20
 
@@ -92,7 +92,7 @@ def test_extrapolated_rounds_need_three_quarters_at_most_and_mechanisms_exist_be
     assert closing.frozen_mechanism(flow, -x0) is not None  # tension: no gap were least
     power = load_scale(problem, bracket(model).associated) / len(problem.blocks)
     state, _ = follow(flow, x0, problem.compliance, means=[Means(Barrier(), 2, 35)], power=power)
-    nearest, needed = NearestStresses(problem, problem.compliance), []
+    nearest, needed = NearestStresses(problem), []
     for ahead in (closing.ahead, lambda now, *_: now[0]):
         monkeypatch.setattr(closing, "ahead", ahead)
         found, rounds = closing.closed(flow, nearest, state, 1e-8)

@@ -11,7 +11,7 @@ import limitblocks as lb
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.nonassociated import each_way, finished, frozen_flow, start
 from limitblocks.analysis.nonassociated.closing import closed
-from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, fixed_point, nearest_program
+from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, fixed_point
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, frozen
 from limitblocks.analysis.nonassociated.in_the_plane import plane_of
 from limitblocks.analysis.nonassociated.means import Means
@@ -19,6 +19,7 @@ from limitblocks.analysis.nonassociated.outer_loop import Rounds, outer_loop
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import off_load_path
 from limitblocks.analysis.nonassociated.start import bracket
+from limitblocks.analysis.programs import in_cone
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Flow, State, Turning
 from limitblocks.problem.plane import Choice
@@ -244,7 +245,7 @@ def test_the_rounds_end_where_a_program_has_no_solution(push, weight):
     problem = replace(problem, dead=weight * problem.dead)
     none = np.zeros(problem.C.shape[1]), np.zeros(len(problem.g))
     start, flow = State(0.0, np.zeros(problem.C.shape[0]), *none), Flow(problem)
-    nearest = NearestStresses(problem, problem.compliance)
+    nearest = NearestStresses(problem)
     assert fixed_point(nearest, start, flow, 1e-8, 5) is None
     assert closed(flow, nearest, start, 1e-8) == (start, 1)
 
@@ -264,10 +265,11 @@ def wedged(model, seed):
     """A state within yield at half the load factor, far from its mirror image, and the mean of both."""
     problem = model.problem
     plane, live = in_plane(problem, Choice.FLOWING), lb.bounds(model).lower * problem.units.live
-    x, load_factor, _, admissible = nearest_program(problem, problem.compliance)
+    x = cp.Variable(problem.C.shape[0])
     far = np.random.default_rng(seed).normal(size=x.size)
-    least = cp.Minimize(cp.sum_squares(x - far))
-    cp.Problem(least, [*admissible, load_factor == live / 2.0]).solve(solver=cp.CLARABEL)
+    balance = problem.C.T @ x == problem.dead + live / 2.0 * problem.live
+    inside = in_cone(problem.F @ x + problem.g, problem.cones)
+    cp.Problem(cp.Minimize(cp.sum_squares(x - far)), [balance, *inside]).solve(solver=cp.CLARABEL)
     none = np.zeros(problem.C.shape[1]), np.zeros(len(problem.g))
     mean = plane.stresses @ plane.stresses_of(x.value)
     return plane, *(State(live / 2.0, stresses, *none) for stresses in (x.value, mean))

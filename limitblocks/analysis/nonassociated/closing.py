@@ -39,7 +39,7 @@ class Closing:
     solution: State | None = None
 
     def __post_init__(self) -> None:
-        self.nearest = NearestStresses(self.flow.problem, self.flow.problem.compliance)
+        self.nearest = NearestStresses(self.flow.problem)
 
     def __call__(self, state: State) -> State:
         """Return the best state met."""

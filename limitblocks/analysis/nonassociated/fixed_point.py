@@ -11,7 +11,6 @@ that leave no gap. At a fixed point both are exact and Eqs (54)-(59) hold.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
@@ -48,48 +47,39 @@ def frozen_mechanism(flow: Flow, x: Array) -> tuple[Array, Array] | None:
     return (state.u, state.y) if np.isfinite(state.u).all() and np.isfinite(state.y).all() else None
 
 
-def nearest_program(
-    problem: LimitProblem, weights: Array
-) -> tuple[cp.Variable, cp.Variable, cp.Expression, list[cp.Constraint]]:
-    """Stresses, load factor, half the squared norm x^T W x, and the constraints of equilibrium and yield."""
-    x, load_factor = cp.Variable(problem.C.shape[0]), cp.Variable()
-    norm = 0.5 * cp.sum_squares(cp.multiply(np.sqrt(weights), x))
-    balance = problem.C.T @ x == problem.dead + load_factor * problem.live
-    return x, load_factor, norm, [balance, *in_cone(problem.F @ x + problem.g, problem.cones)]
-
-
 class NearestStresses:
     """Stresses in equilibrium within yield, nearest to given ones; compiled once, then vectors change."""
 
-    def __init__(self, problem: LimitProblem, weights: Array) -> None:
-        self.problem, self.weights = problem, weights
+    def __init__(self, problem: LimitProblem) -> None:
+        self.problem = problem
 
     @cached_property
     def _compiled(self) -> tuple[Any, ...]:
-        x, load_factor, norm, constraints = nearest_program(self.problem, self.weights)
-        program = cp.Problem(cp.Minimize(norm + cp.sum(x)), constraints)  # ones where the slope will be
+        p = self.problem
+        x, load_factor = cp.Variable(p.C.shape[0]), cp.Variable()
+        norm = 0.5 * cp.sum_squares(cp.multiply(np.sqrt(p.compliance), x))
+        balance = p.C.T @ x == p.dead + load_factor * p.live
+        aim = cp.Minimize(norm + cp.sum(x))  # ones where the slope will be
+        program = cp.Problem(aim, [balance, *in_cone(p.F @ x + p.g, p.cones)])
         data, chain, inverse = program.get_problem_data(cp.CLARABEL, solver_opts=dict(SETTINGS))
         first = data["param_prob"].var_id_to_col[x.id]
         return x, load_factor, program, data, chain, inverse, slice(first, first + x.size)
 
-    def slope(self, x: Array, y: Array) -> Array:
-        """Slope of the program: of the distance from x and of the gap to y."""
-        return np.asarray(PENALTY * (self.problem.F.T @ y) - self.weights * x)
-
     def find(self, x: Array, y: Array) -> tuple[float, Array] | None:
         """Load factor and stresses nearest to x that leave no gap to y; None if the solver finds none."""
         nearest, load_factor, program, data, chain, inverse, places = self._compiled
-        slopes = data["c"].copy()
-        slopes[places] = self.slope(x, y)
-
-        def solve() -> None:
-            solved = chain.solve_via_data(
-                program, data | {"c": slopes}, warm_start=False, verbose=False, solver_opts=dict(SETTINGS)
-            )
-            program.unpack_results(solved, chain, inverse)
-
-        values = _values(solve, nearest, load_factor)
-        return None if values is None else (float(values[1]), values[0])
+        slopes = data["c"].copy()  # of the distance from x and of the gap to y
+        slopes[places] = PENALTY * (self.problem.F.T @ y) - self.problem.compliance * x
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # residuals judge the accuracy
+                solved = chain.solve_via_data(
+                    program, data | {"c": slopes}, warm_start=False, verbose=False, solver_opts=dict(SETTINGS)
+                )
+                program.unpack_results(solved, chain, inverse)
+        except (cp.SolverError, ValueError, ArithmeticError):
+            return None
+        return None if nearest.value is None else (float(load_factor.value), np.asarray(nearest.value))
 
 
 def fixed_point(
@@ -113,17 +103,3 @@ def _admissible(problem: LimitProblem, state: State) -> bool:
     unbalanced = problem.dead + state.load_factor * problem.live - problem.C.T @ state.x
     inside = problem.cones.margin(problem.F @ state.x + problem.g).min()
     return bool(np.abs(unbalanced).max() <= 1e-9 and inside >= -1e-9)
-
-
-def _values(solve: Callable[[], object], *variables: cp.Variable) -> tuple[Array, ...] | None:
-    """Values that a solver leaves, None if it leaves none; residuals judge their accuracy."""
-    for variable in variables:
-        variable.value = None
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            solve()
-        except (cp.SolverError, ValueError, ArithmeticError):
-            return None
-    values = [variable.value for variable in variables]
-    return None if any(value is None for value in values) else tuple(np.asarray(v, float) for v in values)

@@ -145,7 +145,7 @@ def outer_loop(
         Settings.
     """
     problem = flow.problem
-    analysis, nearest = FrozenAnalysis(flow), NearestStresses(problem, problem.compliance)
+    analysis, nearest = FrozenAnalysis(flow), NearestStresses(problem)
     rotation, last = rounds.rotation, np.inf
     met = [State(0.0, x, np.zeros(problem.C.shape[1]), np.zeros(len(problem.g)))]
     closed: list[tuple[float, State, int]] = []  # drift of the load factor, solution, round
