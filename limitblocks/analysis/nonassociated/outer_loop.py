@@ -22,7 +22,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 
 import cvxpy as cp
 import numpy as np
@@ -76,48 +75,23 @@ class Rounds:
     closing: int = 5
 
 
-@dataclass(frozen=True, eq=False)
-class FrozenAnalysis:
-    """Limit analysis with frozen flow: compiled once, then only its data change, unless G depends on x."""
-
-    flow: Flow
-
-    @cached_property
-    def _program(self) -> tuple[Program, cp.Parameter, cp.Parameter]:
-        return self._at(np.zeros(self.flow.problem.C.shape[0]))
-
-    def _at(self, x: Array) -> tuple[Program, cp.Parameter, cp.Parameter]:
-        """The kinematic program, u and y, of the flow at x; parameters: h, and the rotation."""
-        p, G = self.flow.problem, self.flow.matrix(x)
-        u, y = cp.Variable(p.C.shape[1]), cp.Variable(len(p.g))
-        h, rotation = cp.Parameter(len(p.g)), cp.Parameter(nonneg=True)
-        flow = p.C @ u + G.T @ y - rotation * ((p.F - G).T @ y) == 0
-        constraints = [flow, p.live @ u == 1, *in_cone(y, p.cones)]
-        return Program(cp.Problem(cp.Minimize(h @ y - p.dead @ u), constraints), (u, y)), h, rotation
-
-    def find(self, x: Array, rotation: float, cohesion: float) -> State | None:
-        """Limit load, stresses (its dual) and mechanism with the flow frozen at x; None if none is found."""
-        p, conic = self.flow.problem, bool(self.flow.problem.cones.second_order)
-        program, h, rotated = self._program if self.flow.constant else self._at(x)
-        held = (p.F - self.flow.matrix(x)) @ x
-        slack = cohesion * rotation * np.abs(held).max() * p.cones.identity * self._frictional
-        rotated.value, h.value = rotation, p.g + (1.0 + rotation) * held + slack
-        for solver in solvers(conic):
-            for variable in program.variables:
-                variable.value = None  # of the round before, where the solver fails
-            solution = solved(program, solver)
-            (u, y), stresses = solution.values, solution.duals[0]
-            if all(np.isfinite(part).all() for part in (u, y, stresses)):
-                return State(float(h.value @ y - p.dead @ u), stresses, u, y)
-        return None
-
-    @cached_property
-    def _frictional(self) -> Array:
-        """One for the rows whose flow is not their gradient, and for their whole cones, else zero; (R,)."""
-        p = self.flow.problem
-        differs = abs(p.F - self.flow.matrix(np.zeros(p.C.shape[0]))).sum(axis=1)
-        of_member = np.bincount(p.cones.member, weights=differs, minlength=p.cones.degree)
-        return np.asarray(1.0 * (of_member > 0.0)[p.cones.member])
+def frozen_limit(flow: Flow, x: Array, rotation: float, cohesion: float) -> State | None:
+    """Limit load, stresses (its dual) and mechanism with the flow frozen at x; None if none is found."""
+    p, G = flow.problem, flow.matrix(x)
+    lost = p.F - G
+    held = lost @ x
+    frictional = np.bincount(p.cones.member, abs(lost).sum(axis=1), p.cones.degree) > 0.0
+    slack = cohesion * rotation * np.abs(held).max() * p.cones.identity * frictional[p.cones.member]
+    u, y, h = cp.Variable(p.C.shape[1]), cp.Variable(len(p.g)), p.g + (1.0 + rotation) * held + slack
+    follows = p.C @ u + (G - rotation * lost).T @ y == 0
+    constraints = [follows, p.live @ u == 1, *in_cone(y, p.cones)]
+    program = Program(cp.Problem(cp.Minimize(h @ y - p.dead @ u), constraints), (u, y))
+    for solver in solvers(bool(p.cones.second_order)):
+        solution = solved(program, solver)
+        (u, y), stresses = solution.values, solution.duals[0]
+        if all(np.isfinite(part).all() for part in (u, y, stresses)):
+            return State(float(h @ y - p.dead @ u), stresses, u, y)
+    return None
 
 
 def outer_loop(
@@ -145,14 +119,14 @@ def outer_loop(
         Settings.
     """
     problem = flow.problem
-    analysis, nearest = FrozenAnalysis(flow), NearestStresses(problem)
+    nearest = NearestStresses(problem)
     rotation, last = rounds.rotation, np.inf
     met = [State(0.0, x, np.zeros(problem.C.shape[1]), np.zeros(len(problem.g)))]
     closed: list[tuple[float, State, int]] = []  # drift of the load factor, solution, round
     stopped = ""
     try:
         for k in range(1, rounds.most + 1):
-            frozen = analysis.find(x, rotation, rounds.cohesion)
+            frozen = frozen_limit(flow, x, rotation, rounds.cohesion)
             if frozen is None:
                 break
             met.append(frozen)
