@@ -86,20 +86,13 @@ def fixed_point(
     nearest: NearestStresses, start: State, flow: Flow, tolerance: float, rounds: int
 ) -> State | None:
     """Iterate from `start`; return a state within the tolerance, or None."""
-    state, stays = start, _admissible(nearest.problem, start)
+    state = start
     for _ in range(rounds):
-        found = (state.load_factor, state.x) if stays else nearest.find(state.x, state.y)
+        found = nearest.find(state.x, state.y)
         mechanism = frozen_mechanism(flow, found[1]) if found else None
         if found is None or mechanism is None:
             return None
-        state, stays = State(*found, *mechanism), False
+        state = State(*found, *mechanism)
         if mcp_residuals(flow, state).worst.value <= tolerance:
             return state
     return None
-
-
-def _admissible(problem: LimitProblem, state: State) -> bool:
-    """True where equilibrium and yield hold already, so that the stresses can stay."""
-    unbalanced = problem.dead + state.load_factor * problem.live - problem.C.T @ state.x
-    inside = problem.cones.margin(problem.F @ state.x + problem.g).min()
-    return bool(np.abs(unbalanced).max() <= 1e-9 and inside >= -1e-9)
