@@ -1,4 +1,4 @@
-"""Groups and colours of blocks, and what was left out of a file, go with the model wherever it goes."""
+"""Layers, materials, groups and colours of blocks, and what was left out of a file, go with the model."""
 
 import json
 
@@ -17,7 +17,7 @@ LIVE = lb.mass_proportional((1.0, 0.0, 0.0))
 BLOCKS = [
     lb.Block.box("base", (2, 1, 0.2), (0, 0, -0.1)).labelled(layer="BASE AREA", material="rock"),
     lb.Block.box("s1", (1, 1, 0.5), (0, 0, 0.25), 2e4).labelled(
-        layer="WALL", groups=["pier", "phase 2"], colour="#b08050"
+        layer="WALL", material="granite", groups=["pier", "phase 2"], colour="#b08050"
     ),
     lb.Block.box("s2", (1, 1, 0.5), (0, 0, 0.75), 2e4).labelled(groups=["pier"], colour="#1020FF"),
 ]
@@ -31,23 +31,22 @@ def said_by(*words):
 
 
 def words(blocks):
-    return [(block.groups, block.colour) for block in blocks]
+    return [(block.groups, block.colour, block.material) for block in blocks]
 
 
-WORDS = [((), ""), (("pier", "phase 2"), "#b08050"), (("pier",), "#1020ff")]
+WORDS = [((), "", "rock"), (("pier", "phase 2"), "#b08050", "granite"), (("pier",), "#1020ff", "")]
 
 
 @pytest.mark.parametrize("suffix", [".obj", ".glb", ".dxf", ".3dm", ".json"])
-def test_groups_and_colours_are_kept_by_every_format_that_has_them(tmp_path, suffix):
+def test_words_of_blocks_are_kept_by_every_format_that_has_them(tmp_path, suffix):
     found = lb.files.read_blocks(lb.files.write_blocks(MODEL, tmp_path / f"a{suffix}"))
     assert words(found.blocks) == WORDS
     assert [block.layer for block in found.blocks] == ["BASE AREA", "WALL", "block"]
     again = lb.files.read_blocks(lb.files.write_blocks(found, tmp_path / f"b{suffix}"))
     assert words(again.blocks) == WORDS
-    assert [block.material for block in again.blocks] == ["rock", "", ""]
-    bare = [block.labelled(groups=(), colour="") for block in BLOCKS]
+    bare = [block.labelled(groups=(), colour="", material="") for block in BLOCKS]
     plain = lb.files.read_blocks(lb.files.write_blocks(bare, tmp_path / f"c{suffix}"))
-    assert words(plain.blocks) == [((), "")] * 3
+    assert words(plain.blocks) == [((), "", "")] * 3
 
 
 def test_ply_has_colours_alone(tmp_path):
@@ -63,28 +62,33 @@ def test_ply_of_a_scan_has_no_colour_of_its_blocks(tmp_path):
     assert lb.files.read_blocks(path).blocks[0].colour == ""
 
 
-def test_the_model_file_keeps_groups_colours_and_what_was_left_out(tmp_path):
+def test_the_model_file_keeps_words_of_blocks_and_what_was_left_out(tmp_path):
     model = lb.Model(BLOCKS, ["base"], MODEL.interfaces, MODEL.dead, LIVE, left_out=["footing"])
     again = lb.read(model.save(tmp_path / "a.json"))
     assert words(again.blocks) == WORDS
+    assert [block.layer for block in again.blocks] == ["BASE AREA", "WALL", ""]
     assert (again.left_out, again.digest) == (("footing",), MODEL.digest)
     document = MODEL.to_dict()
     assert "left_out" not in document
     assert {"groups", "colour"} & document["blocks"][0].keys() == set()
+    assert {"layer", "material"} & document["blocks"][2].keys() == set()
 
 
-def test_reports_info_and_paraview_have_groups_and_colours(tmp_path):
+def test_reports_info_and_paraview_have_the_words_of_blocks(tmp_path):
     known = facts(MODEL)
     assert known["groups"] == {"pier": 2, "phase 2": 1}
     assert known["colours"] == {"#b08050": 1, "#1020ff": 1}
     drawn = scene(MODEL, [], "")["blocks"]
     assert drawn["groups"] == ["", "pier, phase 2", "pier"]
     assert drawn["colour"] == ["", "#b08050", "#1020ff"]
+    assert (drawn["layer"], drawn["material"]) == (["BASE AREA", "WALL", ""], ["rock", "granite", ""])
     said = said_by("info", MODEL.save(tmp_path / "a.json"))
     assert "2 × pier, 1 × phase 2" in said
     assert "1 × #b08050" in said
     meshio = pytest.importorskip("meshio")
     data = meshio.read(lb.files.write_vtu(MODEL, tmp_path / "a.vtu", None)[0]).cell_data
+    assert np.concatenate(data["layer"]).tolist() == [1] * 6 + [2] * 6 + [0] * 6  # BASE AREA, WALL, none
+    assert np.concatenate(data["material"]).tolist() == [2] * 6 + [1] * 6 + [0] * 6  # rock, granite, none
     assert np.concatenate(data["group"]).tolist() == [0] * 6 + [1] * 12  # none, pier
     assert np.concatenate(data["colour"])[[0, 6, 12]].tolist() == [[255] * 3, [176, 128, 80], [16, 32, 255]]
 
@@ -135,7 +139,9 @@ def test_a_colour_in_a_file_that_is_none_is_passed_over(tmp_path):
     for node in document["data"]["graph"]["node"].values():
         node |= {"colour": "bricky", "groups": ["", 3, " a\n b "]}
     path.write_text(json.dumps(document))
-    assert words(lb.files.read_blocks(path).blocks) == [(("3", "a b"), "")] * 3
+    assert words(lb.files.read_blocks(path).blocks) == [
+        (("3", "a b"), "", material) for material in ("rock", "granite", "")
+    ]
 
 
 def leaning(left_out=()):

@@ -1,4 +1,4 @@
-"""What a file does not say: units, the axis up, supports; and what is kept of layers and materials."""
+"""What a file does not say: units, the axis up, supports, materials."""
 
 import logging
 from dataclasses import replace
@@ -10,7 +10,6 @@ import limitblocks as lb
 from limitblocks.io import guesses, look
 from limitblocks.io.supports import likely_supports
 from limitblocks.joints import Material, Materials
-from limitblocks.reports.scene import scene
 from limitblocks.structures import EXAMPLES
 
 JOINT = lb.OrdunaLourenco(0.7)
@@ -165,24 +164,6 @@ LABELLED = [
     lb.Block.box("s1", (1, 1, 0.5), (0, 0, 0.25)).labelled(unit_weight=2e4, layer="WALL", material="granite"),
     lb.Block.box("s2", (1, 1, 0.5), (0, 0, 0.75)).labelled(unit_weight=2e4, layer="WALL", material=""),
 ]
-MODEL = lb.Model(LABELLED, ["base 1"], lb.find_interfaces(LABELLED, JOINT), lb.self_weight(), LIVE)
-
-
-@pytest.mark.parametrize("suffix", [".obj", ".glb", ".dxf", ".3dm", ".json"])
-def test_layers_and_materials_are_kept_by_every_format_that_has_them(tmp_path, suffix):
-    found = lb.files.read_blocks(lb.files.write_blocks(MODEL, tmp_path / f"a{suffix}"))
-    assert [block.layer for block in found.blocks] == ["BASE", "WALL", "WALL"]
-    assert [block.material for block in found.blocks] == ["rock", "granite", ""]
-    again = lb.files.read_blocks(lb.files.write_blocks(found, tmp_path / f"b{suffix}"))
-    assert [(b.layer, b.material) for b in again.blocks] == [(b.layer, b.material) for b in found.blocks]
-
-
-def test_layers_and_materials_are_kept_by_the_model_file(tmp_path):
-    again = lb.read(MODEL.save(tmp_path / "model.json"))
-    assert [(b.layer, b.material) for b in again.blocks] == [(b.layer, b.material) for b in LABELLED]
-    assert again.digest == MODEL.digest
-    bare = replace(MODEL, blocks=[replace(b, layer="", material="") for b in LABELLED])
-    assert not [block for block in bare.to_dict()["blocks"] if {"layer", "material"} & block.keys()]
 
 
 def test_the_material_of_a_layer_in_rhino_is_that_of_its_objects(tmp_path):
@@ -197,17 +178,6 @@ def test_the_material_of_a_layer_in_rhino_is_that_of_its_objects(tmp_path):
     assert model.Write(str(tmp_path / "a.3dm"), 7)
     (block,) = lb.files.read_blocks(tmp_path / "a.3dm").blocks
     assert (block.name, block.layer, block.material) == ("stone", "Wall", "Granite")
-
-
-def test_layers_and_materials_go_to_paraview_and_to_the_picture_of_a_report(tmp_path):
-    meshio = pytest.importorskip("meshio")
-    bounds = lb.bounds(MODEL)
-    blocks, _ = lb.files.write_vtu(MODEL, tmp_path / "a.vtu", bounds)
-    data = meshio.read(blocks).cell_data
-    assert np.concatenate(data["layer"]).tolist() == [0] * 6 + [1] * 12  # BASE, WALL
-    assert np.concatenate(data["material"]).tolist() == [2] * 6 + [1] * 6 + [0] * 6  # none, granite, rock
-    drawn = scene(MODEL, [bounds], "")["blocks"]
-    assert (drawn["layer"], drawn["material"]) == (["BASE", "WALL", "WALL"], ["rock", "granite", ""])
 
 
 def test_healing_keeps_labels():
