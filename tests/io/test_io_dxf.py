@@ -6,33 +6,11 @@ from dataclasses import replace
 import ezdxf
 import numpy as np
 import pytest
-from dxf_files import JOINT, STRUCTURES, drawn
+from dxf_files import STRUCTURES, drawn
 from ezdxf.render.forms import cube, cylinder
 from reading import fault, outcome
 
 import limitblocks as lb
-
-
-@pytest.mark.parametrize("suffix", [".3dm", ".dxf", ".json"])
-@pytest.mark.parametrize("name", STRUCTURES)
-def test_names_supports_and_layers_survive(tmp_path, name, suffix):
-    model = STRUCTURES[name]
-    imported = lb.files.read_blocks(lb.files.write_blocks(model, tmp_path / f"a{suffix}"))
-    assert [block.name for block in imported.blocks] == [block.name for block in model.blocks]
-    assert imported.supports == model.supports
-    assert not imported.notes
-    assert set(imported.layers.values()) == {"support", "block"}
-
-
-def test_round_trip_bounds(tmp_path):
-    model = STRUCTURES["wall"]
-    again = lb.read(
-        lb.files.write_blocks(model, tmp_path / "wall.dxf"),
-        joint=JOINT,
-        unit_weight={"block": 20e3},
-        live=model.live,
-    )
-    assert lb.bounds(again).lower == pytest.approx(lb.bounds(model).lower, rel=1e-6)
 
 
 def test_written_file_is_sound_and_in_metres(tmp_path):

@@ -1,5 +1,6 @@
-"""Every structure through every format: the same interfaces, and the same bounds."""
+"""Every structure through every format: the same words and interfaces, and the same bounds."""
 
+import struct
 from dataclasses import replace
 
 import numpy as np
@@ -34,18 +35,46 @@ def through(model, file):
     return lb.read(file, joint=JOINT, supports=supported, unit_weight=20e3, live=LIVE)
 
 
-def total_area(model):
-    return sum(areas(interface.polygon) for interface in model.interfaces)
+def same_interfaces(blocks, model, tolerance):
+    """The interfaces found between `blocks` are those found in the model, in its order, by place and area."""
+    before, after = lb.find_interfaces(model.blocks, JOINT), lb.find_interfaces(blocks, JOINT)
+    assert len(after) == len(before)
+    totals = [sum(areas(interface.polygon) for interface in found) for found in (before, after)]
+    assert totals[1] == pytest.approx(totals[0], rel=tolerance)
+    places = [np.array([interface.centroid for interface in found]) for found in (before, after)]
+    assert np.abs(places[1] - places[0]).max() <= 10 * tolerance * np.abs(places[0]).max()
 
 
 @pytest.mark.parametrize("suffix", PRECISION)
 @pytest.mark.parametrize("name", NAMES)
-def test_interfaces_survive(tmp_path, name, suffix):
-    model = example(name)
-    again = through(model, tmp_path / f"structure{suffix}")
-    assert len(again.blocks) == len(model.blocks)
-    assert len(again.interfaces) == len(model.interfaces)
-    assert total_area(again) == pytest.approx(total_area(model), rel=PRECISION[suffix])
+def test_words_and_interfaces_survive(tmp_path, name, suffix):
+    model = EXAMPLES[name](JOINT)
+    found = lb.files.read_blocks(lb.files.write_blocks(model, tmp_path / f"structure{suffix}"))
+    if suffix == ".ply":  # has no names
+        assert found.blocks[1].name == "structure 2"
+    else:
+        assert [block.name for block in found.blocks] == [block.name for block in model.blocks]
+        assert found.notes == ()
+    if suffix in (".dxf", ".3dm", ".json"):
+        assert found.supports == model.supports
+        assert [block.layer for block in found.blocks] == [
+            block.layer or ("support" if block.name in model.supports else "block") for block in model.blocks
+        ]
+    same_interfaces(found.blocks, model, PRECISION[suffix])
+
+
+@pytest.mark.parametrize("name", ["wall", "arch", "barrel_vault"])
+def test_binary_stl_without_names_is_told_apart_where_blocks_touch(name, tmp_path):
+    model = EXAMPLES[name](JOINT)
+    text = lb.files.write_blocks(model, tmp_path / "text.stl")
+    corners = np.array(
+        [line.split()[1:] for line in text.read_text().splitlines() if "vertex" in line], float
+    )
+    records = np.zeros(len(corners) // 3, [("n", "<f4", 3), ("c", "<f4", (3, 3)), ("a", "<u2")])
+    records["c"] = corners.reshape(-1, 3, 3)
+    path = tmp_path / "binary.stl"
+    path.write_bytes(b"solid".ljust(80) + struct.pack("<I", len(records)) + records.tobytes())
+    same_interfaces(lb.files.read_blocks(path).blocks, model, 1e-6)
 
 
 @pytest.mark.parametrize("k", range(len(NAMES)), ids=NAMES)
