@@ -3,9 +3,7 @@
 import json
 import re
 from dataclasses import dataclass, replace
-from html import unescape
 from importlib import import_module
-from io import BytesIO
 from xml.etree import ElementTree as ET
 
 import facades
@@ -13,6 +11,7 @@ import jsonschema
 import numpy as np
 import pytest
 from chapters import chapter, rows
+from renderings import RENDERINGS
 from typer.testing import CliRunner
 
 import limitblocks as lb
@@ -73,30 +72,18 @@ def toy(monkeypatch):
     return heaviest(MODEL)
 
 
-def renderings(report):
-    from limitblocks.reports.pdf import pdf
-
-    pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")
-    pages = pypdf.PdfReader(BytesIO(pdf(report.document))).pages
-    return {
-        "html": unescape(re.sub("<[^>]+>", " ", report.html)),
-        "json": report.json,
-        "markdown": report.markdown,
-        "terminal": report.text,
-        "pdf": " ".join(page.extract_text() for page in pages),
-    }
-
-
 def test_a_new_analysis_needs_its_class_and_one_entry(toy, tmp_path):
     """4 m x .5 m x 1 m at 20 kN/m3: 40 kN, in all five renderings, saved, read back and in a notebook."""
-    for said in renderings(lb.report(MODEL, toy)).values():
+    for rendering in RENDERINGS.values():
+        said = rendering(lb.report(MODEL, toy))
         assert "Heaviest blocks" in said
         assert "40000" in said
     file = toy.save(tmp_path / "toy.json")
     read = lb.read_result(file)
     assert (type(read), read.from_file, read.names) == (Heaviest, True, toy.names)
     assert result_text(read) == result_text(toy)
-    for said in renderings(lb.report(MODEL, read)).values():
+    for rendering in RENDERINGS.values():
+        said = rendering(lb.report(MODEL, read))
         assert "read from a file" in re.sub(r"\s+", " ", said)
     html = toy._repr_html_()
     ET.fromstring(html)

@@ -2,12 +2,12 @@
 
 import re
 from dataclasses import replace
-from io import BytesIO
 from itertools import pairwise
 
 import numpy as np
 import pytest
 from browsers import FLAGS, FOUND, SOFTWARE, needed, watch
+from renderings import pages
 from stones import model_of, portal_stones
 from viewer_page import Image, card, drawn, shades, show, slide
 
@@ -255,10 +255,8 @@ def test_print_shows_the_drawing_in_place_of_the_canvas(page):
 
 
 def test_printed_pages_have_number_title_and_hash_and_no_head_alone(page, model, results):
-    pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")
     page.emulate_media(media="print")
-    data = page.pdf(prefer_css_page_size=True)
-    sheets = [one.extract_text() for one in pypdf.PdfReader(BytesIO(data)).pages]
+    sheets = pages(page.pdf(prefer_css_page_size=True))
     titles = [chapter.title for chapter in lb.report(model, *results).document.chapters]
     assert len(sheets) > 3
     for k, sheet in enumerate(sheets, start=1):
