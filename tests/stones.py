@@ -15,6 +15,11 @@ def model_of(stones, supports, joint, direction=(1, 0, 0), name=""):
     return lb.Model(stones, supports, found, lb.self_weight(), lb.mass_proportional(direction), name)
 
 
+def volume(model):
+    """Of the blocks that no ground holds."""
+    return sum(block.volume for block in model.free_blocks)
+
+
 def portal_stones(left="left", lintel="lintel"):
     """A lintel on two legs on the ground."""
     return [
