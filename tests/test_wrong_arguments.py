@@ -37,6 +37,9 @@ def wall():
         lambda model: lb.check_mcp(model, None),
         lambda model: lb.interface_states(model, None),
         lambda model: lb.sensitivities(model, None),
+        lambda model: lb.files.write_forces(model, "wall.glb", None),
+        lambda model: lb.files.write_vtu(model, "wall.vtu"),
+        lambda model: lb.files.write_animation(model, "wall.glb", None),
     ],
 )
 def test_the_name_of_a_file_is_no_model(ask):
@@ -44,6 +47,13 @@ def test_the_name_of_a_file_is_no_model(ask):
         lb.ModelError, match=r"model is a str, expected a Model; limitblocks.read\('wall.json'\)"
     ):
         ask("wall.json")
+
+
+def test_what_is_no_block_is_not_written_or_chosen(wall):
+    with pytest.raises(lb.ModelError, match=r"blocks is 'wall.obj', expected a sequence of Block"):
+        lb.files.write_blocks("wall.obj", wall)
+    with pytest.raises(lb.ModelError, match="supports is 3, expected a sequence of str"):
+        lb.files.select(wall.blocks, 3, "supports")
 
 
 @pytest.mark.parametrize(

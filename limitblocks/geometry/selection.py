@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 from fnmatch import fnmatchcase
 from fractions import Fraction
 
-from limitblocks.errors import ModelError, few, near
+from limitblocks.errors import ModelError, few, near, sequence_of
 from limitblocks.geometry.block import Block
 from limitblocks.shown import many
 
@@ -47,7 +47,7 @@ def select(blocks: Sequence[Block], wanted: Selection, word: str = "selection") 
         if not picked:
             raise ModelError(f"{word}: the function is true for none of {many(len(blocks), 'block')}")
     else:
-        texts = [wanted] if isinstance(wanted, str) else list(wanted)
+        texts = [wanted] if isinstance(wanted, str) else sequence_of(word, wanted, str)
         picked, wrong = set[str](), list[str]()
         for text in texts:
             names = _matching(blocks, text)

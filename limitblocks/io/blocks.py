@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from copy import copy
 from pathlib import Path
 
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, sequence_of
 from limitblocks.geometry import Block
 from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, formats, strict_json
@@ -105,16 +105,16 @@ def write_blocks(
     ModelError
         The suffix is unknown, or there are no blocks.
     """
-    path = Path(file)
-    bodies = tuple(blocks.blocks if isinstance(blocks, Model | ImportedBlocks) else blocks)
+    given = blocks.blocks if isinstance(blocks, Model | ImportedBlocks) else blocks
+    bodies, path = sequence_of("blocks", given, Block), Path(file)
     if not bodies:
         raise ModelError(f"{path}: no blocks given; expected at least one")
     if path.suffix.lower() not in formats.WRITTEN:
         raise ModelError(
             f"{path}: suffix {path.suffix!r} is unknown; expected one of {', '.join(formats.WRITTEN)}"
         )
-    given = blocks.supports if isinstance(blocks, Model | ImportedBlocks) else ()
-    bodies, supports = tuple(map(plain, bodies)), set(map(one_line, given))
+    fixed = blocks.supports if isinstance(blocks, Model | ImportedBlocks) else ()
+    bodies, supports = tuple(map(plain, bodies)), set(map(one_line, fixed))
     layers = labels(bodies, supports or None)
     return write(path, formats.module(path.suffix).encoded(bodies, layers, supports), overwrite)
 

@@ -11,7 +11,7 @@ from limitblocks.errors import ModelError
 from limitblocks.io import formats
 from limitblocks.io.blocks import plain
 from limitblocks.io.imported import one_line
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.written import write
 
 
@@ -49,7 +49,7 @@ def write_forces(
     ModelError
         The suffix is unknown, the scale is not above 0, the result has no forces or belongs to another model.
     """
-    path = Path(file)
+    model, path = checked_model(model), Path(file)
     if path.suffix.lower() not in formats.FORCES:
         known = ", ".join(formats.FORCES)
         raise ModelError(

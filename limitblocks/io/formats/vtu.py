@@ -18,7 +18,7 @@ from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.geometry import Block
 from limitblocks.io.colours import parts_of
 from limitblocks.io.packages import package
-from limitblocks.model import Model, refuse_other
+from limitblocks.model import Model, checked_model, refuse_other
 from limitblocks.written import refuse_existing, write
 
 _RESULTANTS = ("V1", "V2", "N", "M1", "M2", "T")
@@ -60,7 +60,7 @@ def write_vtu(
     ModelError
         The suffix is wrong, or the result belongs to another model.
     """
-    path = Path(file)
+    model, path = checked_model(model), Path(file)
     refuse_other(model, result)
     wanted = ".pvd" if isinstance(result, LoadPath) else ".vtu"
     if path.suffix.lower() != wanted:

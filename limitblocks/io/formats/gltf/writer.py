@@ -21,7 +21,7 @@ from limitblocks.io.colours import linear_of
 from limitblocks.io.imported import labels
 from limitblocks.io.packages import package
 from limitblocks.io.placed import Z_UP
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.written import write
 
 _FLOAT = 5126  # component type
@@ -55,7 +55,7 @@ def write_animation(model: Model, file: str | Path, result: Any, *, overwrite: b
     ModelError
         The suffix is not .glb, or the result belongs to another model.
     """
-    path = animation_path(file)
+    model, path = checked_model(model), animation_path(file)
     states = places(model, result) if hasattr(result, "points") else motion(model, result).states
     supports = set(model.supports)
     layers = labels(model.blocks, supports)
