@@ -1,4 +1,4 @@
-"""`limitblocks examples`: the teaching examples that come with the package."""
+"""`limitblocks examples`: the lessons that come with the package."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from limitblocks.cli.options import Force
 from limitblocks.errors import LimitBlocksError
 
 examples = typer.Typer(
-    help="Teaching examples: list them, run one, read one.", no_args_is_help=True, rich_markup_mode=None
+    help="Lessons: list them, run one, read one.", no_args_is_help=True, rich_markup_mode=None
 )
 Name = Annotated[str, typer.Argument(help="Name or number of an example.", show_default=False)]
 

@@ -101,7 +101,7 @@ def heal(blocks: Sequence[Block], accuracy: float | None = None) -> Healed:
     blocks : sequence of Block
     accuracy : float, optional
         About the standard deviation of a coordinate, m; left out, what the faces show:
-        `Tolerances.accuracy`.
+        `Tolerances.accuracy` times the block length.
 
     Raises
     ------

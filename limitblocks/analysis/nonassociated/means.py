@@ -11,9 +11,17 @@ from limitblocks.joints.base import checked_count
 
 
 class Means(NamedTuple):
-    """A path to try: its barrier, the seed of its weights, and the factorisations it may take.
+    """A path to try.
 
-    A path with `patience` is given up where theta does not fall to a third in so many factorisations.
+    Attributes
+    ----------
+    barrier : Barrier
+    seed : int
+        Of the weights of the rows, >= 0; 0: all are equal.
+    budget : int
+        Factorisations that the path may take.
+    patience : int, optional
+        The path is given up where theta does not fall to a third in so many factorisations.
     """
 
     barrier: Barrier
