@@ -49,8 +49,8 @@ class Tolerances:
         Least mean width (area over half the perimeter) of an interface; what is narrower is a strip.
     accuracy : float
         Of the vertices, as the faces that touch show it: the median of half the variation of the gap over
-        a joint. About the standard deviation of a coordinate, in block lengths; None where there are fewer than 8 joints, which
-        do not tell noise from a wedge.
+        a joint. About the standard deviation of a coordinate, in block lengths; None where there are fewer
+        than 8 joints, which do not tell noise from a wedge.
     """
 
     gap: float = GAP

@@ -52,6 +52,11 @@ def element_force(acceleration: float, weight: float, *, importance: float = 1.0
     """Return the horizontal force F_a = S_a W_a gamma_a / q_a on an element, N, EN 1998-1 Eq. (4.24).
 
     `acceleration` S_a is over g, `weight` W_a in N, `importance` the factor gamma_a, `q_a` that of behaviour.
+
+    Raises
+    ------
+    ModelError
+        If a number is out of range: the last is at least 1, the others above 0.
     """
     return (
         number(acceleration, "S_a", "", above=0.0)
@@ -78,6 +83,11 @@ def elastic_period(
         E, Pa; of cracked masonry.
     cantilever : bool
         Whether it stands free (a parapet, a pinnacle), or is held at both ends.
+
+    Raises
+    ------
+    ModelError
+        If a number is not above 0.
     """
     L, t = (number(x, name, "m", above=0.0) for x, name in ((length, "length"), (thickness, "thickness")))
     W = number(unit_weight, "unit weight", "N/m3", above=0.0)

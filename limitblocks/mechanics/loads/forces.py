@@ -207,12 +207,24 @@ def _shares(load: Load) -> dict[AddedMass, float]:
 
 
 def force(block: str, force: Sequence[float], at: Sequence[float]) -> Load:
-    """Return a force (N) on the block named `block`, acting at the point `at` (m), global axes."""
+    """Return a force (N) on the block named `block`, acting at the point `at` (m), global axes.
+
+    Raises
+    ------
+    ModelError
+        If a vector is not three finite numbers; the model refuses an unknown block.
+    """
     return of(PointForce(block, vector(force, "force"), vector(at, "at")))
 
 
 def moment(block: str, moment: Sequence[float]) -> Load:
-    """Return a moment (N m, right-hand rule) on the block named `block`, global axes."""
+    """Return a moment (N m, right-hand rule) on the block named `block`, global axes.
+
+    Raises
+    ------
+    ModelError
+        If it is not three finite numbers; the model refuses an unknown block.
+    """
     return of(Moment(block, vector(moment, "moment")))
 
 
