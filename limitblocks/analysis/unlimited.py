@@ -20,7 +20,7 @@ UNLIMITED = (
 )
 JAMMED = (
     "the live load can grow without limit: normal forces alone balance it, without any friction, so that the "
-    "non-associated analysis has no load factor either; check its direction"
+    "non-associated analysis has no load factor either; check its direction, and for tenons drawn tight"
 )
 CERTIFIED = 1e-7  # largest residual of stresses that explain why there is no answer
 

@@ -153,7 +153,7 @@ def refuse_jammed(enclosing: Bracket) -> None:
     if np.isinf(enclosing.associated) and np.isinf(enclosing.frictionless):
         raise UnlimitedLoad(
             "the live load can grow without limit: normal forces alone balance it, without any friction, so "
-            "that no mechanism does positive work with it; check its direction"
+            "that no mechanism does positive work with it; check its direction, and for tenons drawn tight"
         )
 
 
