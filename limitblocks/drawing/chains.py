@@ -10,8 +10,13 @@ At = dict[str, list[int]]
 
 
 def crowded(model: Model) -> tuple[str, int] | None:
-    """Return the first free block with more than two interfaces, and their number; None if there is none."""
+    """Return the first free block with more than two joints, and their number; None if there is none."""
     return next(((name, len(known)) for name, known in _meeting(model).items() if len(known) > 2), None)
+
+
+def touching(model: Model) -> list[int]:
+    """Return the joints in which two blocks touch, by their places: no ties, dowels, fill or guides."""
+    return [k for k, one in enumerate(model.interfaces) if not getattr(one.joint, "word", "")]
 
 
 def chains(model: Model) -> list[list[int]]:
@@ -21,18 +26,19 @@ def chains(model: Model) -> list[list[int]]:
         return []
     lines: list[list[int]] = []
     seen = set[int]()
-    for k, interface in enumerate(model.interfaces):
-        if k not in seen and supports & {interface.block_i, interface.block_j}:
+    for k in touching(model):
+        own = model.interfaces[k]
+        if k not in seen and supports & {own.block_i, own.block_j}:
             lines.append(_chain(model, k, at))
             seen.update(lines[-1])
     return lines
 
 
 def _meeting(model: Model) -> At:
-    """Interfaces of each free block, by their places."""
+    """Joints in which each free block touches others, by their places."""
     supports, at = set(model.supports), defaultdict[str, list[int]](list)
-    for k, interface in enumerate(model.interfaces):
-        for name in {interface.block_i, interface.block_j} - supports:
+    for k in touching(model):
+        for name in {model.interfaces[k].block_i, model.interfaces[k].block_j} - supports:
             at[name].append(k)
     return at
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.drawing.chains import chains, crowded
+from limitblocks.drawing.chains import chains, crowded, touching
 from limitblocks.drawing.ties import has_area, tie_lines
 from limitblocks.errors import ModelError
 from limitblocks.evidence import interface_states as states
@@ -113,7 +113,8 @@ def thrust_line(
     Parameters
     ----------
     model : Model
-        Its free blocks are a chain: none has more than two interfaces, and they do not form a ring.
+        Its free blocks are a chain: none touches others in more than two interfaces, and they do not form a
+        ring. Ties, strips, dowels and passive fill do not count.
     result : Bounds, Nonassociated or LoadPath
         Of this model.
     ax, plane
@@ -148,7 +149,7 @@ def chain(model: Model) -> list[int]:
             "a line of thrust needs a chain of blocks, at most two each"
         )
     lines = chains(model)
-    if len(lines) != 1 or len(lines[0]) < len(model.interfaces):
+    if len(lines) != 1 or len(lines[0]) < len(touching(model)):
         raise ModelError("the blocks form more than one chain, or a ring; a line of thrust needs one chain")
     return lines[0]
 

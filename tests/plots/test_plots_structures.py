@@ -20,6 +20,7 @@ import limitblocks as lb
 from limitblocks.drawing.painter import painting_order, placed
 from limitblocks.evidence.interface_states import interface_states
 from limitblocks.plots.style import VERMILION
+from limitblocks.practice import dowel, reinforced, tie
 
 DRAWINGS = ["structure", "mechanism", "forces", "interface_states"]
 UNITS = {"xz": "XZ", "yz": "YZ", "xy": "XY"}
@@ -182,6 +183,21 @@ def test_thrust_line_of_a_column_begins_at_its_base():
     assert np.allclose(z, [0.0, 0.5, 1.0, 1.5], atol=1e-9)
     above = 2.0 - z  # the weight above acts at half its height
     assert np.allclose(x - 0.25, result.lower * above / 2, atol=1e-5)
+
+
+def test_thrust_line_goes_through_the_joints_of_what_is_tied():
+    """Blocks of .5 m x .5 m, a rod of T at .9 m: a W = W / 2 + .9 T; under the upper one .25 a - .4 T / W."""
+    own = lb.structures.column(
+        lb.OrdunaLourenco(friction=0.9), count=2, width=0.5, height=0.5, unit_weight=20e3
+    )
+    (weight, _), pull = [block.weight for block in own.free_blocks], 1e3
+    rod = tie("block 2", (0, 0, 0.9), "base", (-3, 0, 0.9), area=1e-4, strength=pull / 1e-4)
+    pin = dowel(own.interfaces[0], own.interfaces[0].centroid, diameter=0.02, capacity=1e3)
+    model = reinforced(own, rod, pin)
+    factor = (2 * weight * 0.25 + 0.9 * pull) / (2 * weight * 0.5)
+    line = lb.plots.thrust_line(model, lb.nonassociated(model)).lines[0].get_xydata()
+    off = [0.25, 0.25 * factor - 0.4 * pull / weight]
+    assert np.allclose(line, [(0.25 + off[0], 0.0), (0.25 + off[1], 0.5)], atol=1e-6)
 
 
 def test_thrust_line_needs_a_chain():

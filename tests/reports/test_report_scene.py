@@ -12,6 +12,7 @@ import limitblocks as lb
 from limitblocks.drawing.chains import chains
 from limitblocks.drawing.view import towards
 from limitblocks.evidence.interface_states import interface_states
+from limitblocks.practice import passive_fill, reinforced, tie
 from limitblocks.reports import assets, files
 from limitblocks.reports.interfaces import MOST, active_interfaces, interface_rows
 from limitblocks.reports.scene import scene, short, without_noise
@@ -141,6 +142,13 @@ def test_only_chains_have_a_thrust_line():
     assert chains(lb.structures.wall(JOINT, length=2.0, courses=3)) == []
     (column,) = chains(lb.structures.column(JOINT, count=4, width=1.0, height=1.0))
     assert len(column) == 4
+
+
+def test_ties_and_fill_leave_a_thrust_line(arch):
+    first, last = arch.free_blocks[0], arch.free_blocks[-1]
+    rod = tie(first.name, first.centroid, last.name, last.centroid, area=1e-4, strength=235e6)
+    fill = passive_fill(arch, 3.0, unit_weight=18e3, coefficient=3.0)
+    assert chains(reinforced(arch, rod, *fill)) == chains(arch)
 
 
 def test_numbers_are_short_and_noise_is_zero():
