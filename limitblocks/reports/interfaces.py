@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -54,7 +55,8 @@ def active_interfaces(model: Model, result: Any) -> Active | None:
     order = np.lexsort((states.stress_resultants[:, 2], -states.utilisation.round(3), -moves.round(3)))
     shown = [k for k in order.tolist() if active[k]]
     resultants = without_noise(states.stress_resultants)
-    rows = tuple(_row(states, resultants[k], float(moves[k]), k) for k in shown[:MOST])
+    names = Counter(states.names)
+    rows = tuple(_row(states, names, resultants[k], float(moves[k]), k) for k in shown[:MOST])
     tight = any(isinstance(one.joint, Tie) and one.joint.prestress for one in model.interfaces)
     note = f"{MOVES} {TIGHT}" if tight else MOVES
     return Active(rows, len(shown), len(states.names), note)
@@ -131,11 +133,16 @@ def interface_rows(model: Model, result: Any) -> list[dict[str, Any]]:
     ]
 
 
-def _row(states: InterfaceStates, resultants: Array, moves: float, k: int) -> tuple[Cell, ...]:
+def _row(
+    states: InterfaceStates, names: Counter[str], resultants: Array, moves: float, k: int
+) -> tuple[Cell, ...]:
+    name = states.names[k]
+    if names[name] > 1:  # pieces of an area
+        name += f" at {coordinates(states.centroid[k].tolist())} m"
     V1, V2, N, M1, M2, T = (resultants / 1e3).tolist()
     used = float(states.utilisation[k])
     return (
-        Cell(states.names[k]),
+        Cell(name),
         Cell(states.state[k]),
         Cell(f"{moves:.3f}", moves),
         Cell(f"{used:.3f}", used),

@@ -171,6 +171,17 @@ def test_interfaces_that_stick_are_left_out_and_those_that_move_most_come_first(
     assert [row["name"] for row in interface_rows(arch, results[0])] == list(states.names)
 
 
+def test_pieces_of_a_joint_are_told_apart_by_where_they_are():
+    """A stone that slides on two feet, 1 m apart."""
+    outline = [(-0.6, 0), (-0.4, 0), (-0.4, 1), (0.4, 1), (0.4, 0), (0.6, 0), (0.6, 1.2), (-0.6, 1.2)]
+    ground = lb.Block.box("ground", (3.0, 1.0, 0.2), (0.0, 0.0, -0.1))
+    stones = [ground, lb.Block.prism("stone", outline, (-0.2, 0.2), 20e3)]
+    model = model_of(stones, ["ground"], lb.PointContact(0.2))
+    table = active_interfaces(model, lb.bounds(model))
+    names = sorted(row[0].text for row in table.rows)
+    assert names == ["ground|stone at (-0.5, 0, 0) m", "ground|stone at (0.5, 0, 0) m"]
+
+
 def test_viewer_uses_only_what_its_bundle_has():
     entry = (Path(__file__).parents[2] / "scripts" / "three" / "entry.js").read_text(encoding="utf-8")
     own = assets.scripts()[1]
