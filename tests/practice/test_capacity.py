@@ -36,6 +36,18 @@ def test_block_that_rocks_about_its_toe(joint):
     assert curve.points[1].changes == ("base|block 1 opens",)
 
 
+@pytest.mark.parametrize("joint", JOINTS, ids=["point contact", "paper"])
+def test_block_pushed_askew_rocks_about_an_edge(joint):
+    """The push t off the normal of the edge: alpha cos t = tan(atan(b / h) - asin(d / (h cos t)))."""
+    askew = np.radians(25)
+    push = (np.cos(askew), np.sin(askew), 0)
+    model = lb.structures.block(joint, width=B, height=H, depth=B, direction=push)
+    curve = capacity_curve(model, control=("block 1", toe_corner(model)), steps=3)
+    expected = np.tan(np.arctan(B / H) - np.arcsin(curve.displacements / H / np.cos(askew))) / np.cos(askew)
+    assert curve.load_factors == pytest.approx(expected, abs=1e-9)
+    assert curve.zero == pytest.approx(H * np.sin(np.arctan(B / H)) * np.cos(askew), rel=1e-6)
+
+
 def test_block_whose_toe_crushes():
     """Moments about the toe, from where the stress block W/(fc d) reaches: its width lies under a gap."""
     ratio, depth, weight = 0.2, 1.0, 20e3 * B * H
