@@ -40,10 +40,10 @@ def closed_up(
     size = np.array([block.size for block in assembly.model.blocks])
     scale = np.repeat(np.stack([np.ones_like(size), 1.0 / size], axis=1), 3, axis=1)
     supports = ~assembly.model.free
-    scale[supports] = 0.0
     along = None if along is None or along[supports].any() else along
-    barred = np.zeros((0, scale.size)) if along is None else scale.reshape(1, -1) * along.reshape(1, -1)
+    barred = np.zeros((0, scale.size)) if along is None else (along / scale).reshape(1, -1)
     barred = barred / np.maximum(np.linalg.norm(barred, axis=1, keepdims=True), 1e-300)
+    scale[supports] = 0.0
     while True:
         wanted = np.stack([normal & stuck, normal & stuck, normal], axis=1)
         goal, way, left = _closed(assembly, wanted, scale, barred)

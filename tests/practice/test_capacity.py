@@ -114,6 +114,19 @@ def test_hinges_of_an_arch_stay_together():
     assert volumes[0] == pytest.approx(volumes[1], rel=1e-12)
 
 
+def test_a_model_to_scale_has_the_curve_to_scale():
+    """Dimensional analysis: displacements times the scale, load factors alike; metres are no radians."""
+    scale = 1 / 50
+    full, small = (
+        capacity_curve(
+            lb.structures.arch(JOINTS[0], radius=2.5 * k, thickness=0.7 * k, voussoirs=5, depth=k), steps=4
+        )
+        for k in (1.0, scale)
+    )
+    assert small.displacements == pytest.approx(scale * full.displacements, rel=1e-6)
+    assert small.load_factors == pytest.approx(full.load_factors, abs=1e-6)
+
+
 @pytest.mark.parametrize("push", [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)], ids=["along", "out"])
 @pytest.mark.parametrize("joint", JOINTS, ids=["point contact", "paper"])
 def test_a_facade_of_37_blocks(joint, push):
