@@ -86,12 +86,13 @@ def line_curve(
 ) -> Curve:
     """Return a line through values x and y, round numbers at its axes, those of x at least `least` apart.
 
-    It has a gap where y is NaN.
+    It has a gap where y is NaN. The axis of y has zero, that of x only where it is among the values.
 
     `words` are title, caption and what the axes show, `said` a text a dot.
     """
     x, y = values
-    return _curve(words, values, said, (_numbers(*_range(x), least), _numbers(*_range(y))))
+    across = float(x.min()), float(x.max())
+    return _curve(words, values, said, (_numbers(*across, least), _numbers(*_range(y))))
 
 
 def convergence_curve(history: Sequence[Iteration]) -> Curve | None:
@@ -176,4 +177,4 @@ def _numbers(low: float, high: float, least: float = 0.0) -> Ticks:
     step = next(size * share for share in (0.2, 0.5, 1.0, 2.0) if (high - low) / (size * share) <= 10.0)
     step = max(step, least)
     numbers = step * np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1)
-    return [(number, f"{number:g}") for number in (numbers.round(12) + 0.0).tolist()]
+    return [(number, f"{number:.12g}") for number in (numbers.round(12) + 0.0).tolist()]

@@ -122,7 +122,8 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
         own=True,
         meaning=DRIVEN,
         headline=cut(found.bounds.lower),
-        quantity=f"associated load factor of the vehicle, worst found: axle 1 at X = {found.position:.4g} m",
+        quantity="associated load factor of the vehicle, worst found: axle 1 at X = "
+        f"{coordinate(found.position)} m",
         values=(
             *_vehicle_rows(found),
             ("Static load factor", at_least(found.bounds.lower), "at the worst position"),
@@ -159,7 +160,7 @@ def _envelope(x: Any, factors: Any) -> Curve | None:
     if np.isfinite(factors).sum() < 2:
         return None
     title = "Load factor against the position of the first axle"
-    said = [f"X = {a:.4g} m: load factor {b:.4g}" for a, b in zip(x, factors, strict=True)]
+    said = [f"X = {coordinate(a)} m: load factor {b:.4g}" for a, b in zip(x, factors, strict=True)]
     gaps = " It has a gap where the load is unlimited." * bool(np.isnan(factors).any())
     return line_curve(
         (title, f"{title}, a dot a position.{gaps}", "first axle at X, m", "load factor"), (x, factors), said

@@ -123,6 +123,18 @@ def test_the_envelope_of_a_vehicle_has_a_gap_where_the_load_is_unlimited(beam, v
     assert "gap" in report.text
 
 
+def test_the_envelope_of_a_vehicle_far_from_the_origin_fills_its_axis(beam, vehicle):
+    """1 m of bridge at X = 1000 m was a stroke at the end of an axis from 0, places told in metres."""
+    places, factors = 1000.0 + np.arange(5.0) / 4.0, np.array([2.0, 3.0, 5.0, 4.0, 2.5])
+    drawn = replace(vehicle, positions=places, load_factors=factors, position=1000.25)
+    made = chapter(lb.report(beam, drawn), "Vehicle on the deck")
+    assert made.parts[0].quantity.endswith("X = 1000.25 m")
+    (curve,) = (part.sheet for part in made.parts if hasattr(part, "sheet") and part.sheet.dots)
+    x = [dot.x for dot in curve.dots]
+    assert x == pytest.approx(np.linspace(110.0, 970.0, 5), abs=0.1)  # the whole width between the margins
+    assert [dot.text.split(":")[0] for dot in curve.dots][1::2] == ["X = 1000.25 m", "X = 1000.75 m"]
+
+
 def words(chapter):
     return [part.text for part in chapter.parts if isinstance(part, Text)]
 
