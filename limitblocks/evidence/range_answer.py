@@ -39,7 +39,7 @@ class RangeAnswer(Viewed):
     moving : tuple of str
         Blocks that move in its mechanism.
     share : float
-        Weight of those blocks over that of all free blocks.
+        Weight of those blocks over that of all free blocks; volumes where none has a weight.
     thrust : float
         Power that its slipping joints take up, over that which they would take up under the stresses of the
         permanent loads: the normal forces at work, over the permanent ones; 1 where nothing slips.

@@ -28,3 +28,21 @@ def test_where_nothing_slips_the_thrust_is_that_of_the_permanent_loads(joint):
     (answer,) = lb.load_factor_range(model, paths=1, mechanisms=0).answers
     assert answer.load_factor == pytest.approx(0.4, rel=1e-6)
     assert (answer.share, answer.thrust, answer.local) == (1.0, 1.0, False)
+
+
+@pytest.mark.parametrize("unit_weight", [None, 0.0], ids=["left out", "zero"])
+def test_blocks_without_weight_that_forces_press_and_push(unit_weight):
+    """The upper stone, a quarter of the volume, slides at its friction; ZeroDivisionError, no unit weight."""
+    stones = [
+        lb.Block.box("ground", (4, 4, 0.2), at=(0, 0, -0.1)),
+        lb.Block.box("lower", (2, 1, 1.5), at=(0, 0, 0.75), unit_weight=unit_weight),
+        lb.Block.box("upper", (1, 1, 1), at=(0, 0, 2), unit_weight=unit_weight),
+    ]
+    frictions = {"lower": lb.PointContact(0.9), "upper": lb.PointContact(0.3)}
+    beds = lb.find_interfaces(stones, lambda i, j: frictions[max(i.name, j.name)])
+    press, push = (lb.loads.force("upper", force, (0, 0, 1.5)) for force in ((0, 0, -9e3), (9e3, 0, 0)))
+    model = lb.Model(stones, ["ground"], beds, press, push)
+    assert lb.load_path(model).load_factor == pytest.approx(0.3, rel=1e-6)
+    (answer,) = lb.load_factor_range(model, paths=1, mechanisms=0).answers
+    assert answer.load_factor == pytest.approx(0.3, rel=1e-6)
+    assert (answer.moving, answer.share) == (("upper",), pytest.approx(1.0 / (3.0 + 1.0)))

@@ -142,6 +142,8 @@ def of_result(
     moves = {b.name for b, fast in zip(model.blocks, speed > MOVING * speed.max(), strict=True) if fast}
     free = model.free_blocks
     moving = tuple(block.name for block in free if block.name in moves)
+    weights = {b.name: b.volume * (b.unit_weight or 0.0) for b in free}
+    weights = weights if any(weights.values()) else {b.name: b.volume for b in free}
     p = flow.problem
     G = flow.matrix(permanent)
     slips = sparse.csr_array(p.F - G)  # what slipping takes up per multiplier, (F - G) x
@@ -152,7 +154,7 @@ def of_result(
         check=check_mcp(model, result),
         origin=origin,
         moving=moving,
-        share=float(sum(b.weight for b in free if b.name in moves) / sum(b.weight for b in free)),
+        share=sum(weights[name] for name in moving) / sum(weights.values()),
         thrust=max(0.0, now) / before if before > NOISE * abs(y).sum() else 1.0,
     )
 

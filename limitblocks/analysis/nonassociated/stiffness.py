@@ -21,7 +21,9 @@ def compliance_of(
     """Dimensionless compliance of each generalised stress."""
     if stiffness is None:
         free = model.free_blocks
-        weight = np.mean([b.weight for b in free]) or np.mean(model.problem.units.block_force)
+        weight = np.mean([b.volume * (b.unit_weight or 0.0) for b in free]) or np.mean(
+            model.problem.units.block_force
+        )
         unit = weight / np.mean([np.cbrt(b.volume) for b in free]) ** 3
         stiffness = (float(unit), float(unit))
     table = (
