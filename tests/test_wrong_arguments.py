@@ -132,10 +132,6 @@ def test_notes_that_differ_in_numbers_alone_are_one_with_the_least_and_the_most(
         (lambda model: lb.load_path(model, progress=3), "progress is a int, expected a function"),
         (lambda model: lb.load_factor_range(model, time_limit=0), "time_limit is 0, expected more than 0 s"),
         (lambda model: lb.sensitivities(model, model), "bounds is a Model, expected Bounds"),
-        (
-            lambda model: capacity_curve(model, control="wall 1.1"),
-            "control is 'wall 1.1', expected a block and",
-        ),
         (lambda model: lb.studies.sweep(model, [0.5]), "maker is a Model, expected a function"),
         (lambda model: lb.studies.sweep(lambda mu: model, 5), "values is 5, expected a sequence"),
         (lambda model: lb.loads.compass("8"), "count of directions is '8', expected a whole number of at"),
@@ -154,20 +150,6 @@ def test_notes_that_differ_in_numbers_alone_are_one_with_the_least_and_the_most(
 def test_arguments_of_an_analysis_are_refused_by_name(wall, ask, said):
     with pytest.raises(lb.ModelError, match=said):
         ask(wall)
-
-
-@pytest.mark.parametrize(
-    ("given", "said"),
-    [
-        ({"length": "1.6"}, "length is '1.6', expected a number"),
-        ({"courses": 2.0}, "courses is 2.0, expected a whole number"),
-        ({"openings": "door"}, r"openings are 'door', expected \(left, sill, width, height\)"),
-        ({"openings": (0.4, 0.0, 0.4, 0.2)}, "openings are .*expected"),
-    ],
-)
-def test_measures_of_a_structure_are_refused_by_name(given, said):
-    with pytest.raises(lb.ModelError, match=said):
-        lb.structures.wall(JOINT, **({"length": 1.6, "courses": 2} | given))
 
 
 def test_a_figure_of_a_result_without_its_model(wall):
@@ -215,18 +197,7 @@ TEXTS = [
     ("angle is '0.01'", lambda wall: lb.find_contacts(wall.blocks, JOINT, angle="0.01")),
     ("accuracy is '0.001'", lambda wall: lb.heal(wall.blocks, accuracy="0.001")),
     ("gap of the tolerances is '1'", lambda _: lb.settings.Tolerances(gap="1")),
-    ("unit weight is '20'", lambda _: lb.structures.wall(JOINT, length=1.2, courses=2, unit_weight="20")),
     ("direction", lambda _: lb.structures.wall(JOINT, length=1.2, courses=2, direction=("1", 0, 0))),
-    ("overlap is '0.1'", lambda _: lb.structures.cantilever_stair(JOINT, overlap="0.1")),
-    ("turn is '0.5'", lambda _: lb.structures.stair(JOINT, turn="0.5")),
-    ("length is '2.4'", lambda _: lb.structures.eccentric_lintel(JOINT, length="2.4")),
-    ("bearing is '0.8'", lambda _: lb.structures.eccentric_lintel(JOINT, bearing="0.8")),
-    ("eccentricity is '0'", lambda _: lb.structures.eccentric_lintel(JOINT, eccentricity="0")),
-    ("fraction is '1'", lambda _: lb.structures.overhang(JOINT, count=2, length=1, height=1, fraction="1")),
-    (
-        "oculus is '0.1'",
-        lambda _: lb.structures.dome(JOINT, radius=5, thickness=1, courses=3, stones=8, oculus="0.1"),
-    ),
     (
         "fill height is '1', expected a number >= 0; fill inertia is '1'",
         lambda _: lb.structures.arch(

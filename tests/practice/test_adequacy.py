@@ -307,21 +307,6 @@ def test_command(tmp_path):
     assert "--gamma-m" in CliRunner().invoke(app, words[:-2]).output
 
 
-@pytest.mark.parametrize(
-    ("make", "words"),
-    [
-        (lambda: PartialFactors(1.35, -1.5, 2.0), "gamma_Q is -1.5, expected a finite number > 0"),
-        (lambda: PartialFactors(1.35, 1.5, 0.0), "gamma_M is 0.0"),
-        (lambda: adequacy(wall(), PartialFactors(1.0, 1.0, 1.0)), "give gamma_S"),
-        (lambda: adequacy(wall(7.9e3), PartialFactors(1.35, 1.0, 1.0, 1.0, 1.0)), "tie with a prestress of"),
-        (lambda: Tie(1.0, 1.0, 2.0), "prestress of a tie is 2.0 Pa, expected 0 to less than its strength"),
-    ],
-)  # fmt: skip
-def test_misuse(make, words):
-    with pytest.raises(lb.ModelError, match=words):
-        make()
-
-
 def test_what_stands_with_characteristic_values_alone_is_said_to():
     """A block on a slope of 1 in 5 stands at friction 0.3 and slides at 0.3 / 2."""
     pair = [lb.Block.prism("slope", [(0, 0), (5, 0), (5, 1)], (0, 1))]

@@ -267,22 +267,6 @@ def test_fill_is_listed_as_fill_and_not_drawn(tmp_path):
     assert again.digest == held.digest
 
 
-@pytest.mark.parametrize(
-    ("settings", "words"),
-    [
-        ({"spans": 2}, "pier width is missing, expected at least 0.352 m"),
-        ({"spans": 2, "pier_width": 0.3}, "pier width is 0.3, expected at least 0.352 m"),
-        ({"rise": 2.0}, "rise is 2.0, expected at most half the clear span"),
-        ({"rings": 0}, "rings is 0, expected a whole number of at least 1"),
-        ({"spans": 1.5}, "spans is 1.5, expected a whole number"),
-        ({"thickness": -0.2}, "thickness is -0.2"),
-    ],
-)  # fmt: skip
-def test_misuse(settings, words):
-    with pytest.raises(lb.ModelError, match=words):
-        bridge(**settings)
-
-
 def test_a_stone_that_spans_the_width_feels_where_across_it_an_axle_is():
     """The moment about X is -P y; how much it takes of the load factor is a matter of the joint."""
     factors = {}

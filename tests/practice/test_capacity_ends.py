@@ -36,21 +36,6 @@ def test_a_curve_that_never_falls_ends_at_the_size_of_the_structure():
     assert (curve.zero, curve.ended) == (None, "the displacement 10 m, the size of the structure, is reached")
 
 
-@pytest.mark.parametrize(
-    ("settings", "words"),
-    [
-        ({"steps": 1}, "steps is 1, expected a whole number of at least 2"),
-        ({"largest": 0.0}, "largest is 0.0, expected a displacement > 0"),
-        ({"control": ("stone", (0, 0, 0))}, "'stone' is not a block"),
-        ({"control": ("base", (0, 0, 0))}, "block 'base' does not move"),
-    ],
-)
-def test_misuse(settings, words):
-    model = lb.structures.block(JOINT, width=B, height=H)
-    with pytest.raises(lb.ModelError, match=words):
-        capacity_curve(model, **settings)
-
-
 def test_load_that_stays_behind():
     model = lb.structures.block(JOINT, width=B, height=H)
     loaded = lb.Model(

@@ -63,19 +63,6 @@ def test_a_beam_that_climbs_by_associated_flow_ends_at_the_size_of_the_structure
     assert curve.falls is None
 
 
-@pytest.mark.parametrize(
-    ("settings", "words"),
-    [
-        ({"step": 0.0}, "step is 0.0, expected a finite number > 0"),
-        ({"accuracy": -1.0}, "accuracy is -1.0, expected a finite number > 0"),
-        ({"largest": 0.0}, "largest is 0.0, expected a settlement > 0"),
-    ],
-)
-def test_misuse(settings, words):
-    with pytest.raises(lb.ModelError, match=words):
-        settlement_to_collapse(arch(2, 0.3)[0], "right support", SPREAD, **settings)
-
-
 def test_support_that_is_a_free_block_and_load_that_stays_behind():
     ring, _ = arch(2, 0.3)
     with pytest.raises(lb.ModelError, match="'voussoir 1' is a free block"):

@@ -9,10 +9,8 @@ from stones import model_of
 
 import limitblocks as lb
 from limitblocks.practice import (
-    Deck,
     PartialFactors,
     Rocking,
-    Vehicle,
     design_model,
     dowel,
     element_acceleration,
@@ -25,7 +23,6 @@ from limitblocks.practice import (
     strip,
     tie,
     uplift,
-    worst_position,
 )
 
 T, H, WEIGHT = 0.5, 5.0, 18e3
@@ -276,31 +273,6 @@ def test_eurocode_and_housner():
     assert block.restitution == pytest.approx(1 - 1.5 / 17.0)
     assert block.period(0.5) == pytest.approx(4 / block.frequency * np.arccosh(2.0))
     assert block.period(0.0) == 0.0
-
-
-@pytest.mark.parametrize(
-    ("make", "words"),
-    [
-        (lambda: Vehicle((1.0, 2.0), (0.0,)), "2 axles has 1 distance, expected one for each"),
-        (lambda: Vehicle((-1.0,)), "axle load is -1.0"),
-        (lambda: Deck(1.0, spread=-1.0), "spread is -1.0"),
-        (lambda: uplift(wall(), 1.0, share=2.0), "share of the water pressure is 2.0"),
-        (lambda: uplift(wall(), -1.0, interfaces=wall().interfaces), "above the water at -1 m"),
-        (lambda: worst_position(beam(), Vehicle((1.0,)), Deck(0.5), (2.0, 1.0)), "nothing to search"),
-        (lambda: worst_position(beam(), Vehicle((1.0,)), Deck(0.5), (4.2, 5.0), positions=3),
-         "with the first axle between 4.2 and 5 m the vehicle stands off the structure"),
-        (lambda: Rocking(1.0, 0.0), "height is 0.0"),
-        (lambda: Rocking(1.0, 2.0).period(1.0), "amplitude is 1.0"),
-        (lambda: passive_fill(wall(), 6.0, unit_weight=1.0, coefficient=1.0), "no block has a face"),
-        (
-            lambda: element_acceleration(0.2, 1.0, z=9.0, height=3.0, element_period=0, building_period=1),
-            "above the building",
-        ),
-    ],
-)  # fmt: skip
-def test_misuse(make, words):
-    with pytest.raises(lb.ModelError, match=words):
-        make()
 
 
 def test_a_mass_far_off_its_block_is_refused():

@@ -171,19 +171,6 @@ def test_reaction_is_that_of_an_admissible_state():
     assert 0 < own.held < WEIGHT * LENGTH * DEPTH
 
 
-@pytest.mark.parametrize(
-    ("support", "direction", "words"),
-    [
-        ("lintel", DOWN, "'lintel' is a free block"),
-        ("post", DOWN, "'post' is not a block of the model"),
-        ("right", (0, 0, 0), "direction is .0, 0, 0."),
-    ],
-)
-def test_misuse(support, direction, words):
-    with pytest.raises(lb.ModelError, match=words):
-        settlement(lintel(JOINTS[0]), support, direction)
-
-
 @pytest.mark.parametrize("joint", JOINTS, ids=["point contact", "paper"])
 def test_joints_of_a_settling_structure_have_states(joint):
     """The lintel lifts off one support's inner part and turns; the guide at its strength would be wrong."""

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from facades import SITE
 
-import limitblocks as lb
-from limitblocks.practice import Floor, FloorMode, Spectrum
+from limitblocks.practice import Floor, FloorMode
 from limitblocks.practice.spectra import Place
 
 
@@ -91,26 +90,3 @@ def test_floor_spectrum():
 def test_displacement_is_at_least_that_at_the_period_before_it_is_set_off():
     assert Place(None, 2.0).displacement(SITE, (0.1, 0.3), 0.05) == pytest.approx(SITE.displacement(2.0))
     assert Place(None, 0.2).displacement(SITE, (0.1, 0.3), 0.05) == pytest.approx(SITE.displacement(0.3))
-
-
-@pytest.mark.parametrize(
-    ("values", "words"),
-    [((-1.0, 1.2, 2.5, 0.5), "a_g is -1.0"), ((2.0, 1.2, 1.0, 0.5), "F0 is 1.0, expected a .* >= 2.2")],
-)  # fmt: skip
-def test_wrong_spectrum(values, words):
-    with pytest.raises(lb.ModelError, match=words):
-        Spectrum(*values)
-
-
-@pytest.mark.parametrize(
-    ("ask", "words"),
-    [
-        (lambda: SITE.displacement(1.0, 8.0), r"damping is 8\.0, expected .* <= 0\.3"),
-        (lambda: FloorMode(0.3, 1.3, 1.0, 5.0), r"damping of a mode is 5\.0, expected .* <= 0\.3"),
-        (lambda: FloorMode(300.0, 1.3, 1.0), r"period of a mode is 300\.0, expected .* <= 10 in s"),
-    ],
-)
-def test_per_cent_and_milliseconds_are_refused(ask, words):
-    """8 for 8 % makes eta .55 in place of .877, its least: sqrt(10 / (5 + 28.06)) = .55."""
-    with pytest.raises(lb.ModelError, match=words):
-        ask()

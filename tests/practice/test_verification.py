@@ -209,19 +209,6 @@ def test_mechanism_on_a_floor(facade, answer):
     assert {symbol: found[symbol] for symbol in given} == pytest.approx(given)
 
 
-@pytest.mark.parametrize(
-    ("settings", "words"),
-    [
-        ({"q": 0.5}, "q is 0.5, expected a finite number >= 1"),
-        ({"q": float("nan")}, "q is nan, expected a finite number >= 1"),
-        ({"q": 2.0, "confidence": 0.9}, "FC is 0.9, expected a finite number >= 1"),
-    ],
-)
-def test_misuse(facade, answer, settings, words):
-    with pytest.raises(lb.ModelError, match=words):
-        verification(facade, answer, SITE, **settings)
-
-
 def test_spectrum_without_q(facade, answer):
     with pytest.raises(
         lb.ModelError, match="q is missing: the check at SLV needs a behaviour factor"
