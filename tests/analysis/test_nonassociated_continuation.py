@@ -95,6 +95,10 @@ def test_a_start_that_is_no_state_is_refused(kind):
         lb.nonassociated(model, start=1.01 * stresses)
     with pytest.raises(lb.ModelError, match=f"start has {len(stresses) - 1} numbers; the {len(stresses)} "):
         lb.nonassociated(model, start=stresses[:-1])
+    with pytest.raises(
+        lb.ModelError, match=r"start has 18 numbers; .*, or stress resultants of shape \(1, 6\)"
+    ):
+        lb.nonassociated(model, start=np.zeros((3, 6)))
     with pytest.raises(lb.ModelError, match="finite"):
         lb.nonassociated(model, start=np.where(stresses == stresses.max(), np.nan, stresses))
 

@@ -215,7 +215,7 @@ def _given(model: Model, problem: LimitProblem, start: Start) -> Array:
     if stresses.shape != problem.stress_units.shape or not np.isfinite(stresses).all():
         raise ModelError(
             f"start has {stresses.size} numbers; the {problem.stress_units.size} finite generalised stresses "
-            "of the model are needed, N and N m"
+            f"of the model, or stress resultants of shape ({len(model.interfaces)}, 6), are needed, N and N m"
         )
     x = np.asarray(stresses / problem.stress_units)
     carried = problem.C.T @ x - problem.dead
