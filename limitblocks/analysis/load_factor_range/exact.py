@@ -8,11 +8,7 @@ With binary z for each yield row, and limits M of the slacks and Y of the multip
 M is exact where the admissible slack has a greatest value (a linear program a row); where it has none,
 because the structure can be wedged, it is a cap that the result states. Y is a normalisation: mechanisms
 are left out on which the live load works less than 1 / Y of the largest multiplier. It cannot be derived
-from linear programs: mechanisms on which the live load does no work may be added to any other. The power of
-all forces gives cuts, with (F - G) x >= 0 what slipping takes up per multiplier and q_k the least sum of it
-at the points of interface k:
-
-    a + dead . u >= g . y + sum_k q_k t_k,   t_k <= sum of y at each point of interface k.
+from linear programs: mechanisms on which the live load does no work may be added to any other.
 """
 
 from __future__ import annotations
@@ -25,7 +21,6 @@ from typing import NamedTuple
 
 import cvxpy as cp
 import numpy as np
-from scipy import sparse
 
 from limitblocks.analysis.load_factor_range.faces import Statics, kinematics, proven, statics
 from limitblocks.analysis.programs import Program, Solver, solved
@@ -75,7 +70,6 @@ def exact_extreme(flow: Flow, limits: tuple[float, float], sense: float, time_li
             static.rows <= cp.multiply(np.minimum(largest, cap), 1 - z),
             y >= 0,
             y <= Y * z,
-            *_cuts(flow, static, inside, u, y),
         ],
     )
     bound = sense * _solve(program, time_limit)
@@ -118,27 +112,6 @@ def _greatest(value: cp.Expression, constraints: list[cp.Constraint]) -> float:
     program = cp.Problem(cp.Maximize(value), constraints)
     solved(Program(program, ()), LINEAR)
     return float(program.value) if program.status == cp.OPTIMAL else np.inf
-
-
-def _cuts(
-    flow: Flow, static: Statics, inside: list[cp.Constraint], u: cp.Variable, y: cp.Variable
-) -> list[cp.Constraint]:
-    """The power of all forces, with what slipping takes up at least; none where it might give power."""
-    p = flow.problem
-    taken = sparse.csr_array(p.F - flow.matrix(np.zeros(p.C.shape[0])))
-    points: dict[int, dict[bytes, list[int]]] = {}
-    for r in np.flatnonzero(abs(taken).sum(axis=1)):
-        row = taken[[r]].toarray().round(12).tobytes()
-        points.setdefault(int(p.row_interface[r]), {}).setdefault(row, []).append(int(r))
-    t, least, constraints = cp.Variable(len(p.interfaces), nonneg=True), np.zeros(len(p.interfaces)), []
-    for k in range(len(p.interfaces)):
-        rows = list(points.get(k, {}).values())
-        constraints += [t[k] <= cp.sum(y[of_point]) for of_point in rows]
-        if rows:
-            power = taken[[of_point[0] for of_point in rows]].sum(axis=0)
-            least[k] = max(0.0, -_greatest(-(np.asarray(power).ravel() @ static.x), inside))
-    taken_up = p.g @ y + least @ t
-    return [*constraints, static.load_factor + p.dead @ u >= taken_up]
 
 
 def _solve(program: cp.Problem, time_limit: float) -> float:
