@@ -265,8 +265,10 @@ def placed(own: Contact, blocks: Sequence[Block]) -> Interface:
         if not kept.all():
             resting = [blocks[k] for k in own.ends]
             axes = resting_axes(resting, own.axes_i, own.axes_j, own.rest[kept].mean(axis=0), size)
-        ahead = _short_of(own, float((own.on_j - own.on_i)[kept].mean(axis=0) @ own.half_way[2]))
-        centroid = middle + ahead - own.interface.polygon[kept].mean(axis=0) @ axes[:2]
+        centroid = middle - own.interface.polygon[kept].mean(axis=0) @ axes[:2]
+        across = float((own.on_j - own.on_i)[kept].mean(axis=0) @ own.half_way[2])
+        if abs(across) > 1e-6 * size:  # closed joints stay where they are to the last digit
+            centroid += _short_of(own, across)
     return replace(own.interface, centroid=read_only(centroid), axes=read_only(axes))
 
 
