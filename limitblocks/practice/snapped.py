@@ -114,5 +114,5 @@ def steepest(assembly: Assembly) -> tuple[Array, float]:
         options=TIGHT,
     )
     if found.x is None:
-        raise SolveError(f"whether the structure is held was not found: {found.message}")
+        raise SolveError("whether the structure is held was not found")
     return (found.x * scale.ravel()).reshape(-1, 6), -float(found.fun)

@@ -91,7 +91,7 @@ def test_a_fall_that_another_stone_bars_has_no_end():
 
 def test_a_fall_that_no_linear_program_answers_is_said(monkeypatch):
     monkeypatch.setattr("limitblocks.practice.snapped.TIGHT", TIGHT | {"maxiter": 0})
-    with pytest.raises(lb.SolveError, match="whether the structure is held was not found: Iteration limit"):
+    with pytest.raises(lb.SolveError, match=r"whether the structure is held was not found$"):
         falls(overhanging(0.6))
 
 
