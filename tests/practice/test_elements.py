@@ -31,10 +31,6 @@ def rod(force, height=4.5, **settings):
     return tie("wall", (-T / 2, 0, height), "ground", (-6.0, 0, height), **settings)
 
 
-def unknown():
-    return tie("x", (0, 0, 0), "wall", (1, 0, 0), area=1, strength=1)
-
-
 @every_joint
 def test_tie_of_a_facade(joint):
     assert rocking() == pytest.approx(0.0907692, abs=5e-8)
