@@ -91,8 +91,7 @@ def line_curve(
     `words` are title, caption and what the axes show, `said` a text a dot.
     """
     x, y = values
-    across = float(x.min()), float(x.max())
-    return _curve(words, values, said, (_numbers(*across, least), _numbers(*_range(y))))
+    return _curve(words, values, said, (_numbers(*_range(x), least), _numbers(*_range(y, 0.0))))
 
 
 def convergence_curve(history: Sequence[Iteration]) -> Curve | None:
@@ -120,7 +119,7 @@ def convergence_curve(history: Sequence[Iteration]) -> Curve | None:
         "stage",
         "theta" if tracked else "residual",
     )
-    return _curve(words, (x, y), said, (_numbers(*_range(x), 1.0), y_ticks))
+    return _curve(words, (x, y), said, (_numbers(*_range(x, 0.0), 1.0), y_ticks))
 
 
 def _what(stage: Iteration) -> str:
@@ -166,8 +165,9 @@ def _axis(values: Array, ticks: Ticks, start: float, end: float) -> tuple[list[f
     return places.round(1).tolist(), tuple(Tick(mark, text) for mark, (_, text) in shown)
 
 
-def _range(values: Array) -> tuple[float, float]:
-    low, high = min(0.0, float(np.nanmin(values))), max(0.0, float(np.nanmax(values)))
+def _range(values: Array, *among: float) -> tuple[float, float]:
+    every = np.append(values, among)
+    low, high = float(np.nanmin(every)), float(np.nanmax(every))
     return (low, high) if high > low else (low, low + 1.0)
 
 

@@ -25,6 +25,7 @@ from limitblocks.practice import (
     verification,
     worst_position,
 )
+from limitblocks.reports.curve import line_curve
 from limitblocks.reports.curve_sections import _changes
 from limitblocks.reports.document import Text
 from limitblocks.reports.facts import facts
@@ -121,6 +122,13 @@ def test_the_envelope_of_a_vehicle_has_a_gap_where_the_load_is_unlimited(beam, v
     assert [len(part.split()) for part in line.split("M")[1:]] == [2, 2]
     assert len(curve.dots) == 4
     assert "gap" in report.text
+
+
+def test_a_curve_without_extent_is_drawn_at_the_start_of_its_axis():
+    """A file may say one displacement of all points."""
+    x, y = np.array([2.0, 2.0]), np.array([1.0, 0.5])
+    drawn = line_curve(("title", "caption", "x", "y"), (x, y), ["first", "last"])
+    assert [x for x, _, _ in drawn.dots] == [110.0, 110.0]
 
 
 def test_the_envelope_of_a_vehicle_far_from_the_origin_fills_its_axis(beam, vehicle):
