@@ -128,6 +128,12 @@ def test_a_jammed_block_has_no_greatest_load_factor():
     assert found.answers[-1].check.passed
 
 
+def test_what_stands_beside_a_wedged_block_is_not_wedged():
+    aside = lb.Block.box("aside", (1.0, 1.0, 1.0), (4, 0, 0.5), 20e3)
+    found = wedging.wedging(jammed([aside]).problem)
+    assert set(found.interfaces) == {"floor|block", "ceiling|block"}
+
+
 def test_drawn_mechanisms_find_what_no_path_leads_to():
     """Wedged at a corner of floor and ceiling, the cube turns about it at no load: nothing slips there.
 
