@@ -8,7 +8,7 @@ from limitblocks.analysis.nonassociated.finished import finished
 from limitblocks.analysis.nonassociated.start import bracket
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.residuals import TOLERANCE
-from limitblocks.problem import Flow, Turning
+from limitblocks.problem import Flow, State, Turning
 
 
 def test_a_solution_that_gives_power_is_named_and_refused():
@@ -17,7 +17,9 @@ def test_a_solution_that_gives_power_is_named_and_refused():
     state, flow = state_of(model, claim), Flow(model.problem, 0.0, Turning.PRESSURE)
     (remark,) = given_power(flow, state, TOLERANCE)
     assert remark.startswith("interfaces give power instead of taking it up")
-    assert model.interfaces[0].name in remark
+    assert f"{model.interfaces[0].name} (1.0e+00)" in remark
+    twice = State(2.0 * state.load_factor, state.x, state.u, state.y)  # the live load works twice as much
+    assert given_power(flow, twice, TOLERANCE) == (remark.replace("(1.0e+00)", "(5.0e-01)"),)
     assert remark in lb.check_mcp(model, claim).remarks
     with pytest.raises(lb.NotConverged, match="dissipation residual"):
         finished(model, state, bracket(model), (), flow, "by hand", TOLERANCE, throw=True)
