@@ -61,7 +61,8 @@ def find_interfaces(
 
     Block i is the earlier of the two in `blocks`. Local axes: n points out of block i; s1 runs along the
     longest side of the polygon, traversed counter-clockwise about n; s2 = n x s1. Of sides equal within 1e-6
-    the one with the largest component along global X counts, then Y, then Z. The polygon has no collinear
+    the one with the largest component along global X counts, then Y, then Z; where they are at less than 60
+    degrees, as the legs of an isosceles trapezoid, s1 runs along their mean. The polygon has no collinear
     vertices, and the side from its last vertex to its first is the longest: a rectangle has the vertex order
     (+,-), (+,+), (-,+), (-,-) that Eqs (31)-(32) presuppose.
 
@@ -232,12 +233,8 @@ def _local(stack: Array, origin: Array, frame: Array) -> tuple[Array, Array, Arr
     """Return read-only centroids (m, 3), axes (m, 3, 3), local polygons (m, n, 2) of a stack (m, n, 2)."""
     rows, n = np.arange(len(stack)), stack.shape[1]
     middle = polygon.centroids(stack)
-    longest = polygon.longest_side(stack, frame[:, :2])
-    # the polygon starts where its longest side ends
-    ordered = stack[rows[:, None], (longest[:, None] + 1 + np.arange(n)) % n] - middle[:, None]
-    s1 = ordered[:, 0] - ordered[:, -1]
-    s1 /= np.hypot(s1[:, 0], s1[:, 1])[:, None]
-    turn = np.stack([s1, np.stack([-s1[:, 1], s1[:, 0]], axis=1)], axis=1)
+    first, turn = polygon.along_longest_side(stack, frame[:, :2])
+    ordered = stack[rows[:, None], (first[:, None] + np.arange(n)) % n] - middle[:, None]
     axes = np.concatenate([turn @ frame[:, :2], frame[:, 2:]], axis=1)
     centroid = origin + np.einsum("ki,kij->kj", middle, frame[:, :2])
     arrays = centroid, axes, ordered @ turn.swapaxes(1, 2)

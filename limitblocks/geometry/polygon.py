@@ -118,11 +118,12 @@ def axes_of(normals: Array) -> Array:
     return np.stack([s1, np.cross(normals, s1), normals], axis=-2)
 
 
-def longest_side(polygons: Array, planes: Array) -> Indices:
-    """Return the index k (m,) of the longest side, from vertex k to vertex k + 1, of each polygon.
+def along_longest_side(polygons: Array, planes: Array) -> tuple[Indices, Array]:
+    """Return the first vertex (m,) after the longest side of each polygon, and the turn (m, 2, 2) along it.
 
     Sides within 1e-6 of the longest tie; among them the one whose unit direction has the largest component
-    along global X counts, then Y, then Z, each with the same tolerance.
+    along global X counts, then Y, then Z, each with the same tolerance. The axes lie along the mean of the
+    lines that tie, if they have one: the legs of an isosceles trapezoid, but not the sides of a square.
 
     Parameters
     ----------
@@ -132,8 +133,16 @@ def longest_side(polygons: Array, planes: Array) -> Indices:
     """
     sides = following(polygons) - polygons
     lengths = np.hypot(sides[..., 0], sides[..., 1])
-    best = lengths >= lengths.max(axis=1, keepdims=True) * (1.0 - TIE)
-    directions = np.einsum("mni,mij->mnj", sides / lengths[..., None], planes)
-    for component in np.moveaxis(directions, 2, 0):
-        best &= component >= np.where(best, component, -np.inf).max(axis=1, keepdims=True) - TIE
-    return np.asarray(best.argmax(axis=1))
+    tied = best = lengths >= lengths.max(axis=1, keepdims=True) * (1.0 - TIE)
+    directions = sides / lengths[..., None]
+    for component in np.moveaxis(np.einsum("mni,mij->mnj", directions, planes), 2, 0):
+        best = best & (component >= np.where(best, component, -np.inf).max(axis=1, keepdims=True) - TIE)
+    last = best.argmax(axis=1)
+    units = directions @ (1.0, 1.0j)
+    s1 = units[np.arange(len(units)), last]
+    # a line turned by pi is the same, so twice the angles: those of what nearly is a square cancel
+    mean = np.where(tied, (units / s1[:, None]) ** 2, 0.0).sum(axis=1) / tied.sum(axis=1)
+    angle = np.where(np.abs(mean) > 0.5, np.angle(mean) / 2.0, 0.0)
+    s1 = np.where(np.abs(angle) > TIE, s1 * np.exp(1.0j * angle), s1)
+    turn = np.stack([s1.real, s1.imag, -s1.imag, s1.real], axis=1).reshape(-1, 2, 2)
+    return (last + 1) % polygons.shape[1], turn

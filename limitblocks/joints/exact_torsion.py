@@ -29,7 +29,6 @@ from limitblocks.joints.limit_surface import (
     outer_polytope,
     unique_shapes,
 )
-from limitblocks.joints.orduna_lourenco import equivalent_half_sides
 from limitblocks.joints.queries import Queries
 from limitblocks.joints.rows import Rows, frictional, hinge_gradients, hinging, stacked
 from limitblocks.joints.stress_block import CRUSHING
@@ -118,10 +117,9 @@ class ExactTorsion(Queries):
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
         """Return the rows for polygons of shape (m, n, 2); see :class:`~limitblocks.joints.base.Joint`."""
-        half_sides = equivalent_half_sides(polygons)
         groups = [hinging(polygons, self.compressive_strength, stress_unit=stress_unit)]
         if self.friction > 0.0:
-            groups = self._frictional_rows(polygons, half_sides) + groups
+            groups = self._frictional_rows(polygons) + groups
         return stacked(groups, np.abs(polygons).max(axis=1), self.friction, self.friction > 0.0)
 
     def discretisation_error(self, interface: Interface) -> float:
@@ -145,11 +143,11 @@ class ExactTorsion(Queries):
         whole = torsion_constant(polygon)
         return float((np.minimum(top, whole) - np.minimum(bottom, whole)).max() / whole)
 
-    def _frictional_rows(self, polygons: Array, half_sides: Array) -> list[Rows]:
+    def _frictional_rows(self, polygons: Array) -> list[Rows]:
         """Planes of the limit surface and of torsion under bending, computed once for each shape."""
         first, shape_of = unique_shapes(polygons)
         tables: dict[str, list[Array]] = defaultdict(list)
-        for polygon, levers in zip(polygons[first], half_sides[first], strict=True):
+        for polygon in polygons[first]:
             for mode, (normals, offsets) in self._surfaces(polygon).items():
                 surface = np.zeros((len(offsets), 6))
                 surface[:, [0, 1, 5]], surface[:, 2] = normals, self.friction * offsets
@@ -157,7 +155,7 @@ class ExactTorsion(Queries):
             planes = self.friction * bending_planes(polygon, self.side)
             twist = np.repeat(SIGNS, len(planes))
             bending = np.column_stack([np.zeros((len(twist), 2)), np.tile(planes, (2, 1)), twist])
-            tables["moment-twist"].append(bending / levers.sum())
+            tables["moment-twist"].append(bending / np.abs(polygon).max(axis=0).sum())
         return [
             frictional(mode, -_of_one_length(planes_of)[shape_of], np.zeros(1))
             for mode, planes_of in tables.items()

@@ -10,7 +10,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
-from limitblocks.geometry.polygon import areas, second_moments
+from limitblocks.geometry.polygon import areas
 from limitblocks.joints.base import (
     YieldRows,
     checked_choice,
@@ -21,6 +21,7 @@ from limitblocks.joints.base import (
     strength_words,
     stress_words,
 )
+from limitblocks.joints.key_states import key_state_rows
 from limitblocks.joints.queries import Queries
 from limitblocks.joints.rows import Rows, frictional, hinging, shear_directions, stacked
 from limitblocks.joints.stress_block import CRUSHING
@@ -55,8 +56,9 @@ _SLIP_ASSUMED = {
 class OrdunaLourenco(Queries):
     """Yield surface of Orduña & Lourenço (2005): Eqs (23)-(30) and (36) or (39) on a convex polygon.
 
-    Planes for twist (2), bending with torsion (8) and hinging (one a side), and cones for slip (1) and shear
-    with torsion (2): Coulomb's circle, where the paper puts an octagon. An engineering approximation:
+    Planes for twist (2), bending with torsion (8; four a side on other polygons than quadrilaterals) and
+    hinging (one a side), and cones for slip (1) and shear with torsion (2): Coulomb's circle, where the paper
+    puts an octagon. An engineering approximation:
 
     - the circle is exact for shear, with any flow. The paper's octagon, Eqs (24)-(26), is drawn around it:
       slip "paper", 38 planes on a quadrilateral, with associated flow up to 1/cos(22.5 deg) - 1 = 8.2 %
@@ -73,8 +75,10 @@ class OrdunaLourenco(Queries):
     - the rectangle of Eqs (31)-(32) that stands for another quadrilateral has 0.63 to 1.27 times its torsion,
       the most on slender ones that are nearly triangles, with x1 along the longest side, as
       :func:`limitblocks.find_interfaces` has it;
-    - off rectangles, Eq. (30) as printed cuts the corners of the hinging polygon, where Eq. (36) is exact:
-      the moments are divided by the largest |x1| + |x2| of a corner, which is l1 + l2 on a rectangle;
+    - on them Eq. (30) as printed cuts the corners of the hinging polygon, where Eq. (36) is exact: moments
+      are divided by the largest |x1| + |x2| of a corner, which is l1 + l2 on a rectangle;
+    - other polygons have planes through T0 and the states of Table 4, and so no axes: on regular ones of 5 to
+      24 sides torsion under bending is from 0.13 T0 too weak to 0.12 T0 too strong, exact at a hinge;
     - shear and bending reduce torsion independently of each other;
     - with a compressive strength, Eq. (39) reduces the moment strength to zero at N = -A fcef; that is the
       exact stress block for bending about one axis of a rectangle. Elsewhere the moment is up to
@@ -172,20 +176,15 @@ class OrdunaLourenco(Queries):
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
         """Return the rows for polygons of shape (m, n, 2); see :class:`~limitblocks.joints.base.Joint`."""
-        half_sides = equivalent_half_sides(polygons)
         groups = [hinging(polygons, self.compressive_strength, self.counted_tension, stress_unit)]
         shear = self.friction > 0.0 or self.cohesion > 0.0
         if shear:
-            groups = self._frictional_rows(polygons, half_sides, stress_unit) + groups
+            groups = self._frictional_rows(polygons, stress_unit) + groups
         return stacked(groups, np.abs(polygons).max(axis=1), self.friction, shear)
 
-    def _frictional_rows(self, polygons: Array, half_sides: Array, stress_unit: float) -> list[Rows]:
+    def _frictional_rows(self, polygons: Array, stress_unit: float) -> list[Rows]:
         """Eqs (23)-(30) with the flow of Tables 3 and 5."""
         cohesion = self.cohesion / stress_unit * areas(polygons)
-        per_torsion = 1.0 / _paper_torsion_constants(polygons, half_sides)
-        per_moment = 1.0 / half_sides.sum(axis=1)
-        # off rectangles corners lie outside |x1| + |x2| = l1 + l2, where Eq. (30) would forbid hinging
-        per_corner = 1.0 / np.abs(polygons).sum(axis=2).max(axis=1)
 
         def rows(
             mode: str, table: Array, share: Any, moment: Any = 0.0, torsion: Any = 0.0, size: int = 0
@@ -195,12 +194,24 @@ class OrdunaLourenco(Queries):
             g = share * table[:, 2] * scale[..., 6]
             return frictional(mode, -table * scale[..., :6], g, size)
 
+        if polygons.shape[1] == 4:
+            half_sides = equivalent_half_sides(polygons)
+            constants = rectangle_torsion_constant(half_sides[:, 0], half_sides[:, 1])  # Eq. (17)
+            # off rectangles corners lie outside |x1| + |x2| = l1 + l2, where Eq. (30) would forbid hinging
+            per_corner = 1.0 / np.abs(polygons).sum(axis=2).max(axis=1)
+            factors = self.friction / 2 * per_corner, 1.0 / half_sides.sum(axis=1)
+            bending = rows("moment-twist", MOMENT_TWIST, 0.5, *factors)
+        else:
+            constants = torsion_constants(polygons)
+            table = key_state_rows(polygons) * (0.0, 0.0, *[self.friction] * 3, 1.0)
+            bending = frictional("moment-twist", -table, cohesion[:, None])
+        per_torsion = 1.0 / constants
         slip, slip_twist, size = _circle_tables(self.slip, self.sides)
         return [
             rows("twist", TWIST, 1.0, torsion=per_torsion),
             rows("slip", slip, 1.0, size=size),
             rows("slip-twist", slip_twist, SLIP_FORCE, torsion=per_torsion, size=size),
-            rows("moment-twist", MOMENT_TWIST, 0.5, self.friction / 2 * per_corner, per_moment),
+            bending,
         ]
 
 
@@ -217,25 +228,14 @@ def _circle_tables(slip: str, sides: int) -> tuple[Array, Array, int]:
 
 
 def equivalent_half_sides(polygons: Array) -> Array:
-    """Half sides (m, 2) of the equivalent rectangle.
+    """Half sides (m, 2) of the rectangle that stands for each quadrilateral (m, 4, 2).
 
-    Quadrilaterals: Eqs (31)-(32), for the first vertex that makes them largest: it gives the order
-    (+,-), (+,+), (-,+), (-,-) that they presuppose. Other polygons, which the paper leaves open: the
-    rectangle with the same radii of gyration about x1 and x2, which agrees with Eqs (31)-(32) on rectangles.
+    Eqs (31)-(32), for the first vertex that makes them largest: it gives the order (+,-), (+,+), (-,+), (-,-)
+    that they presuppose.
     """
-    if polygons.shape[1] == 4:
-        turns = np.stack([np.roll(polygons, -k, axis=1) for k in range(4)])
-        x1, x2 = turns[..., 0], turns[..., 1]
-        l1 = (x1[..., 0] + x1[..., 1] - x1[..., 2] - x1[..., 3]) / 4
-        l2 = (x2[..., 1] + x2[..., 2] - x2[..., 0] - x2[..., 3]) / 4
-        first = np.minimum(l1, l2).argmax(axis=0)
-        return np.asarray(np.stack([l1, l2], axis=-1)[first, np.arange(len(polygons))])
-    second = second_moments(polygons)  # columns: integrals of x1^2, x2^2, x1 x2
-    return np.sqrt(3.0 * second[:, :2] / areas(polygons)[:, None])
-
-
-def _paper_torsion_constants(polygons: Array, half_sides: Array) -> Array:
-    """Eq. (17) on the equivalent rectangle of a quadrilateral; Eqs (11)-(16) on other polygons."""
-    if polygons.shape[1] == 4:
-        return rectangle_torsion_constant(half_sides[:, 0], half_sides[:, 1])
-    return torsion_constants(polygons)
+    turns = np.stack([np.roll(polygons, -k, axis=1) for k in range(4)])
+    x1, x2 = turns[..., 0], turns[..., 1]
+    l1 = (x1[..., 0] + x1[..., 1] - x1[..., 2] - x1[..., 3]) / 4
+    l2 = (x2[..., 1] + x2[..., 2] - x2[..., 0] - x2[..., 3]) / 4
+    first = np.minimum(l1, l2).argmax(axis=0)
+    return np.asarray(np.stack([l1, l2], axis=-1)[first, np.arange(len(polygons))])

@@ -12,7 +12,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.geometry import Block
 from limitblocks.geometry.patches import common_areas, common_part
 from limitblocks.geometry.pieces import convex_pieces
-from limitblocks.geometry.polygon import centroids, longest_side
+from limitblocks.geometry.polygon import along_longest_side, centroids
 from limitblocks.practice.displaced import CLOSED, Contact, placed, seated
 from limitblocks.practice.resting import face_at, tilted
 
@@ -69,7 +69,5 @@ def _on(own: Contact, blocks: Sequence[Block], size: float, flat: Array) -> Cont
 
 def about_centroid(polygon: Array, plane: Array) -> tuple[Array, Array, int]:
     """Return the centroid (2,) of a polygon, the turn (2, 2) to its longest side, and its first vertex."""
-    first = int(longest_side(polygon[None], plane[None])[0]) + 1
-    s1 = polygon[first % len(polygon)] - polygon[first - 1]
-    s1 = s1 / np.linalg.norm(s1)
-    return centroids(polygon[None])[0], np.array([s1, [-s1[1], s1[0]]]), first
+    first, turn = along_longest_side(polygon[None], plane[None])
+    return centroids(polygon[None])[0], turn[0], int(first[0])

@@ -74,11 +74,39 @@ def test_clean_removes_duplicates_and_collinear_vertices_only():
     ],
 )
 def test_longest_side(outline, side):
-    planes = np.eye(3)[None, :2]
-    assert polygon.longest_side(outline[None], planes).tolist() == [side]
+    first, turn = polygon.along_longest_side(outline[None], np.eye(3)[None, :2])
+    assert first.tolist() == [(side + 1) % 4]
+    along = outline[first[0]] - outline[first[0] - 1]
+    assert turn[0] @ along == pytest.approx([np.hypot(*along), 0.0])
 
 
 def test_longest_side_in_a_vertical_plane_looks_along_z_last():
     planes = np.array([[(0, 1, 0), (0, 0, 1)]], dtype=float)  # a plane of constant x
-    assert polygon.longest_side(UNIT[None], planes).tolist() == [0]  # along +Y
-    assert polygon.longest_side(UNIT[None] * (1, 2), planes).tolist() == [1]  # along +Z
+    assert polygon.along_longest_side(UNIT[None], planes)[0].tolist() == [1]  # along +Y
+    assert polygon.along_longest_side(UNIT[None] * (1, 2), planes)[0].tolist() == [2]  # along +Z
+
+
+LEGS = np.array([(-0.2, -0.5), (0.2, -0.5), (0.1, 0.5), (-0.1, 0.5)])  # longest sides at 0.1 from its axis
+
+
+@pytest.mark.parametrize(
+    ("outline", "line"),
+    [
+        (LEGS, np.pi / 2),  # the axis of symmetry
+        (np.array([(-1.0, 0.0), (1.0, 0.0), (0.0, 4.0)]), np.pi / 2),
+        (np.array([(-2.0, 0.0), (2.0, 0.0), (0.0, 1.0)]), 0.0),  # one side is the longest
+        (np.array([(-2.0, 0.0), (0.0, -1.0), (2.0, 0.0), (0.0, 1.0)]), 0.0),  # a rhombus of 53 degrees
+        (np.array([(0.0, 0.0), (1.0, 0.0), (1.0 + 1e-5, 1.0), (1e-5, 1.0)]), 0.0),  # not its diagonal
+        (np.exp(1j * np.pi / 3 * np.arange(6)).view(float).reshape(6, 2), 0.0),
+    ],
+)
+@pytest.mark.parametrize("angle", [0.0, 0.3, 2.0])
+def test_axes_of_sides_that_tie(outline, line, angle):
+    """Mirror images of what is symmetric have axes that are each other's images, as lines or right angles."""
+    for mirrored in (outline, (outline * (-1, 1))[::-1]):
+        _, turn = polygon.along_longest_side(turned(mirrored, angle)[None], np.eye(3)[None, :2])
+        off = np.arctan2(turn[0, 0, 1], turn[0, 0, 0]) - angle - line
+        if len(outline) == 6:  # any of its sides
+            assert np.sin(3.0 * off) == pytest.approx(0.0, abs=1e-9)
+        else:
+            assert np.sin(2.0 * off) == pytest.approx(0.0, abs=1e-4)

@@ -52,7 +52,11 @@ def wall_pushed_out(joint):
 
 STRUCTURES = (facade, tower, dome, wall_pushed_out)
 SYMMETRIC = [(build, name) for build in (facade, wall_pushed_out) for name in JOINTS]
-SYMMETRIC += [(tower, "points"), (tower, "octagon"), (dome, "points")]
+SYMMETRIC += [
+    (tower, "points"),
+    (tower, "octagon"),
+    *((dome, name) for name in ("points", "octagon", "circle")),
+]
 
 
 def without_mirror(analysis, model):
