@@ -72,7 +72,7 @@ class Block(Sealed):
         object.__setattr__(self, "faces", given.faces_of(self.name, self.faces))
         fault = polyhedron.mesh_fault(self.faces, len(self.vertices))
         if not fault:
-            fault = polyhedron.shape_fault(self._points, self.mesh, self.size, self._shape)
+            fault = polyhedron.shape_fault(self._points, self.mesh, self._shape)
             fault += polyhedron.odd_places(self.vertices) if fault else ""
         fault = fault or polyhedron.plane_fault(self._points, self.mesh, self.size, self._planes)
         fault = fault or surface.loop_fault(self._points, self.mesh, self.normals)
@@ -131,8 +131,8 @@ class Block(Sealed):
 
     @cached_property
     def size(self) -> float:
-        """Longest dimension of the bounding box, m."""
-        return float((self.vertices.max(axis=0) - self.vertices.min(axis=0)).max())
+        """Longest side of a box, however it lies, m; of others that of a box with their second moment."""
+        return float(np.sqrt(12.0 * np.linalg.norm(self._shape.second, 2)))  # of a box it is side**2 / 12
 
     @property
     def volume(self) -> float:

@@ -42,11 +42,15 @@ class Mesh(NamedTuple):
 
 
 class Shape(NamedTuple):
-    """Signed volume, centroid (3,), area vectors (m, 3) pointing out of the body."""
+    """Signed volume, centroid (3,), area vectors (m, 3) pointing out of the body, second moment (3, 3).
+
+    The second moment is that of the volume about the centroid, over the volume.
+    """
 
     volume: float
     centroid: Array
     area_vectors: Array
+    second: Array
 
 
 def prism(outline: Array, low: float, high: float, axis: int) -> tuple[Array, Faces]:
@@ -109,7 +113,10 @@ def mesh_fault(faces: Faces, vertices: int) -> str:
 
 
 def shape(points: Array, edges: Mesh) -> Shape:
-    """Return volume (m3), centroid (m) and area vectors (m2) of a closed polyhedron.
+    """Return volume (m3), centroid (m), area vectors (m2) and second moment (m2) of a closed polyhedron.
+
+    The integral of x x^T over a tetrahedron from the origin is V / 20 times the sum of v v^T over its other
+    vertices and their sum.
 
     Parameters
     ----------
@@ -122,9 +129,13 @@ def shape(points: Array, edges: Mesh) -> Shape:
     apex = points[edges.start[edges.first]][edges.face]
     # signed tetrahedra (origin, first vertex of the face, half-edge)
     volumes = np.einsum("ij,ij->i", apex, swept) / 6.0
-    moments = volumes @ (apex + points[edges.start] + points[edges.end]) / 4.0
+    corners = np.stack([apex, points[edges.start], points[edges.end]])
+    corners = np.concatenate([corners, corners.sum(axis=0, keepdims=True)])
     volume = float(volumes.sum())
-    return Shape(volume, moments / (volume or np.nan), np.add.reduceat(swept, edges.first) / 2.0)
+    centroid = volumes @ corners[3] / 4.0 / (volume or np.nan)
+    second = np.einsum("e,kei,kej->ij", volumes / 20.0, corners, corners) / (volume or np.nan)
+    vectors = np.add.reduceat(swept, edges.first) / 2.0
+    return Shape(volume, centroid, vectors, second - np.outer(centroid, centroid))
 
 
 def face_planes(points: Array, edges: Mesh, area_vectors: Array) -> tuple[Array, Array]:
@@ -150,8 +161,9 @@ def is_convex(points: Array, edges: Mesh, size: float, planes: tuple[Array, Arra
     return all(((normals[part] @ points.T).max(axis=1) - offsets[part]).max() <= limit for part in parts)
 
 
-def shape_fault(points: Array, edges: Mesh, size: float, body: Shape) -> str:
+def shape_fault(points: Array, edges: Mesh, body: Shape) -> str:
     """Say what keeps a closed surface from bounding a volume; empty when sound."""
+    size = float(np.ptp(points, axis=0).max())
     sides = points[edges.end] - points[edges.start]
     lengths2 = np.einsum("ij,ij->i", sides, sides)
     if lengths2.min() <= (ZERO_TOLERANCE * size) ** 2:

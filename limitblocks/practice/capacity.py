@@ -72,7 +72,7 @@ def capacity_curve(
         Points to the zero that the slope of the curve foretells. Between two of them the mechanism of the
         first is followed: more steps see sooner where another takes over.
     largest : float
-        Displacement at which the curve ends, m; at most the size of the structure.
+        Displacement at which the curve ends, m.
     progress : callable, optional
         Called with each point.
 
@@ -102,8 +102,7 @@ def _curve(
     """Yield the points of the curve; return why it ends unless at zero."""
     assembly, scale = moving.assembly_of(model), first.load_factor
     assembly = pressed_in(assembly, list(range(len(model.interfaces))), first.stress_resultants)
-    end = min(largest, whole := assembly.size)
-    point = CapacityPoint(0.0, scale, 0.0, model, first, ())
+    whole, point = assembly.size, CapacityPoint(0.0, scale, 0.0, model, first, ())
     before: CapacityPoint | None = None
     behind: deque[CapacityPoint] = deque(maxlen=MOST)
     for _ in range(MOST * steps):
@@ -114,9 +113,8 @@ def _curve(
         still = before is not None and abs(point.displacement - before.displacement) <= CLOSED * assembly.size
         if point.load_factor <= (NEARLY if still else ZERO) * scale:
             return None  # below it where it jumps through zero
-        if point.displacement >= end - CLOSED * whole:  # what is left moves nothing
-            size = "" if largest <= whole else ", the size of the structure,"
-            return f"the displacement {end:g} m{size} is reached"
+        if point.displacement >= largest - CLOSED * whole:  # what is left moves nothing
+            return f"the displacement {largest:g} m is reached"
         if not (pace := _pace(assembly.model, control, point.result.displacement_rates)) > STILL:
             return (
                 f"the control point of block {control.block!r} moves along the live load no more at "
@@ -124,7 +122,7 @@ def _curve(
             )
         # no block moves farther than that, however slow the control point is
         next_step = min(_next_step(assembly, before, point, steps), whole / steps * min(pace, 1.0))
-        step = min(next_step, end - point.displacement)
+        step = min(next_step, largest - point.displacement)
         found = _ahead(assembly, control, point, step, scale, to_zero(before, point))
         small = point.load_factor <= SMALL * scale and to_zero(before, point) <= EVENT * assembly.size
         if isinstance(found, str) and small:

@@ -62,7 +62,8 @@ def settlement_to_collapse(
     step : float, optional
         Largest step, m. Default: .01 of the size of the structure.
     largest : float
-        Settlement at which the curve ends, m; at most the size of the structure.
+        Settlement at which the curve ends, m; at most the size of the structure, which is the largest
+        distance of two of its vertices.
     accuracy : float, optional
         Of the settlement at collapse, m. Default: 1e-6 of the size of the structure.
     progress : callable, optional

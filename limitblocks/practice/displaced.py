@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from scipy.spatial import ConvexHull
+from scipy.spatial.distance import pdist
 from scipy.spatial.transform import Rotation
 
 from limitblocks.arrays import Array, read_only
@@ -150,10 +152,11 @@ class Assembly:
     model: Model
     contacts: tuple[Contact, ...]
 
-    @property
+    @cached_property
     def size(self) -> float:
-        """Size of the structure, m."""
-        return float(max(np.ptp(np.concatenate([b.vertices for b in self.model.blocks]), axis=0)))
+        """Size of the structure: the largest distance of two vertices, m."""
+        points = np.concatenate([block.vertices for block in self.model.blocks])
+        return float(pdist(points[ConvexHull(points - points[0]).vertices]).max())
 
 
 def assembly_of(model: Model) -> Assembly:

@@ -33,7 +33,7 @@ def test_box(shift):
     assert box.volume == pytest.approx(2.0 * 3.0 * 0.5, rel=1e-8)
     assert box.centroid == pytest.approx([shift, -shift, shift], rel=1e-12, abs=1e-12)
     assert box.weight == pytest.approx(20e3 * 3.0, rel=1e-8)
-    assert box.size == 3.0
+    assert box.size == pytest.approx(3.0, rel=1e-8)
     assert sorted(map(tuple, np.round(box.normals).tolist())) == sorted(
         map(tuple, np.vstack([np.eye(3), -np.eye(3)]).tolist())
     )
@@ -47,6 +47,9 @@ def test_tetrahedron(shift):
     block = tetrahedron(a, b, c, shift)
     assert block.volume == pytest.approx(a * b * c / 6, rel=1e-8)
     assert block.centroid - shift == pytest.approx([a / 4, b / 4, c / 4], abs=1e-9)
+    sides = np.array([a, b, c])
+    second = (4.0 * np.diag(sides**2) - np.outer(sides, sides)) / 80.0  # of its volume, over the volume
+    assert block.size == pytest.approx(np.sqrt(12.0 * np.linalg.eigvalsh(second)[-1]), rel=1e-8)
 
 
 @pytest.mark.parametrize("shift", [0.0, FAR])
@@ -106,6 +109,7 @@ def test_rigid_motion_carries_the_body_along(size, at, seed):
     box = Block.box("stone", size, at, unit_weight=1.0)
     moved = box.moved(rotation, translation)
     assert moved.volume == pytest.approx(np.prod(size), rel=1e-9)
+    assert moved.size == pytest.approx(max(size), rel=1e-9)
     assert moved.centroid == pytest.approx(rotation @ at + translation, abs=1e-9)
     assert np.abs(moved.normals - box.normals @ rotation.T).max() < 1e-9
     assert (moved.name, moved.faces, moved.unit_weight) == (box.name, box.faces, box.unit_weight)

@@ -28,12 +28,12 @@ JOINT = lb.PointContact(0.6)
 B, H = 0.2, 1.0
 
 
-def test_a_curve_that_never_falls_ends_at_the_size_of_the_structure():
-    """From one corner of a square to the other, a way longer than its side: it slides for ever."""
-    stones = [lb.Block.box("base", (10, 10, 0.2), (4.5, 4.5, -0.1)), sliding_block().blocks[1]]
-    curve = capacity_curve(model_of(stones, ["base"], lb.PointContact(0.1), (0.5**0.5, 0.5**0.5, 0)), steps=2)
+def test_a_curve_that_never_falls_ends_where_it_is_told_to():
+    """A block slides from one end of a long bar towards the other."""
+    stones = [lb.Block.box("base", (10, 1, 0.2), (4.5, 0, -0.1)), sliding_block().blocks[1]]
+    curve = capacity_curve(model_of(stones, ["base"], lb.PointContact(0.1)), steps=2, largest=8.0)
     assert curve.load_factors == pytest.approx(0.1, rel=1e-8)
-    assert (curve.zero, curve.ended) == (None, "the displacement 10 m, the size of the structure, is reached")
+    assert (curve.zero, curve.ended) == (None, "the displacement 8 m is reached")
 
 
 def test_load_that_stays_behind():
@@ -106,11 +106,11 @@ def test_a_load_factor_that_jumps_below_zero_is_approached_by_halves(monkeypatch
     assert 0.15 <= found.displacement < 0.3
 
 
-@pytest.mark.parametrize("lost", [1e-6, 1e-4, 1e-3])
+@pytest.mark.parametrize("lost", [1e-6, 1e-4, 2e-3])
 def test_a_curve_whose_end_is_not_solved_ends_on_the_safe_side_of_its_zero(monkeypatch, lost):
     """Nothing is solved below 1e-6 or 1e-4 of the first load factor, as on a tower: zero a little before.
 
-    Lost at 1e-3 it is too far from its zero, and has none.
+    Lost at 2e-3 it is too far from its zero, and has none.
     """
     model, whole = lb.structures.block(JOINT, width=B, height=H), capacity.answered
 
