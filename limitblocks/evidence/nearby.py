@@ -10,7 +10,7 @@ from scipy import sparse
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.given_state import Given
-from limitblocks.evidence.limits import ROUNDING, Flags
+from limitblocks.evidence.limits import Flags
 from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.moved_forces import moved_forces
 from limitblocks.evidence.multipliers import near_yield
@@ -18,6 +18,7 @@ from limitblocks.evidence.nearest_mechanism import nearest_mechanism
 from limitblocks.problem import Flow, State, Turning
 
 TURN = 1e-3  # flow that turns less readily than this is lost in rounding
+ROUNDED = 1e-9  # of what acts on the lesser block: what rounding of coordinates far from the origin moves
 SLIGHT = 0.1  # of what acts on the lesser block: a joint that carries more keeps its force
 
 
@@ -124,7 +125,7 @@ def _cheapest(given: Given, choice: _Choice) -> Array:
     for x, slight in choices:
         at = _flowing(given, x, choice)
         by = given.largest(x - own)
-        cost = np.maximum(at.angle, np.where(slight | (by <= ROUNDING), by, np.inf))
+        cost = np.maximum(at.angle, np.where(slight | (by <= ROUNDED), by, np.inf))
         np.maximum.at(cost, members, np.abs(at.change))
         costs.append(cost)
     best = np.argmin(costs, axis=0)[stresses]

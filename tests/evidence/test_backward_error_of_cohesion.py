@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from images import image
 from true_claims import DEPTH, MU, B, H, changed, determinate, error_of, moving, state_of
 
 import limitblocks as lb
@@ -47,6 +48,19 @@ def test_answers_with_cohesion_are_exact_for_a_model_nearby(name):
     claim = lb.check_mcp(PUSHED[name], found)
     assert claim.passed
     assert claim.backward_error.value <= 1e-8
+
+
+@pytest.mark.parametrize("shift", [(0.0, 0.0, 0.0), (1e3, -7e2, 3e2), (5e5, 4.6e6, 1e2)])
+def test_wherever_a_structure_stands_a_joint_torn_off_asks_for_no_other_strength(shift):
+    """One at its tensile strength hinges about all edges, and none has a normal force to scale."""
+    joint = lb.OrdunaLourenco(0.6, cohesion=1e3, tensile_strength=1e3)
+    corner = structures.corner(joint, length=2.4, return_length=2.4, courses=5)
+    model = image(corner, shift=shift)
+    found = lb.nonassociated(model)
+    assert found.load_factor == pytest.approx(lb.nonassociated(corner).load_factor, rel=1e-4)
+    assert found.backward_error.value <= 1e-8
+    assert found.remarks == ()
+    assert lb.check_mcp(model, found).backward_error.value <= 1e-8
 
 
 @pytest.mark.parametrize("share", [1.0, 1 + 1e-4, 0.99, 1.2])
