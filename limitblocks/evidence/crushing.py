@@ -38,9 +38,10 @@ def beyond_stress_block(model: Model, stress_resultants: Array, then: str = TOO_
         return ()
     worst = max(told, key=over.__getitem__)
     where = "" if len(told) == 1 else f", the most of {len(told)} joints with too large a moment"
+    piece = "a piece of " * (sum(one.name == worst for one in model.interfaces) > 1)
     return (
-        f"crushing by Eq. (39): {worst} carries {over[worst]:.2f} times the moment of the exact stress "
-        f"block{where}; {then}",
+        f"crushing by Eq. (39): {piece}{worst} carries {over[worst]:.2f} times the moment of the exact "
+        f"stress block{where}; {then}",
     )
 
 

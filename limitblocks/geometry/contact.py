@@ -55,9 +55,10 @@ def find_interfaces(
     times the median angle between faces that touch, but at least 1e-3 block lengths and 1e-2 rad, which is
     what blocks drawn exactly get; the width is the gap. :class:`Tolerances` says what was used.
 
-    A convex area is one interface. Any other is divided into convex polygons, an interface each; corners
-    within `gap` block lengths of the line through their neighbours, and holes as small, are left out of it
-    first. The division does not depend on the place of the blocks or their order.
+    A convex area is one interface. Any other is divided into convex polygons, an interface each: rectangles
+    where its sides lie along two perpendicular directions. Corners within `gap` block lengths of the line
+    through their neighbours, and holes as small, are left out of it first. The division does not depend on
+    the place of the blocks or their order.
 
     Block i is the earlier of the two in `blocks`. Local axes: n points out of block i; s1 runs along the
     longest side of the polygon, traversed counter-clockwise about n; s2 = n x s1. Of sides equal within 1e-6

@@ -11,6 +11,7 @@ import shapely
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.geometry import polygon
+from limitblocks.geometry.rectangles import rectangles
 
 #: Area by which the convex hull may exceed an area that counts as convex, relative to it.
 _CONVEX = 1e-12
@@ -24,9 +25,9 @@ def convex_pieces(shapes: Any, x_axis: Array, mirrored: Any, tolerance: float) -
     """Divide plane areas into convex pieces; convex ones stay as they are.
 
     Corners within `tolerance` of the line through their neighbours are left out of an area that is not
-    convex, and count as straight in its pieces. It is divided along diagonals: those of the constrained
-    Delaunay triangulation, less all that can be left out, longest first (Hertel & Mehlhorn 1983: at most four
-    times the least number of pieces).
+    convex, and count as straight in its pieces. Areas with perpendicular sides are divided into rectangles,
+    others along diagonals: those of the constrained Delaunay triangulation, less all that can be left out,
+    longest first (Hertel & Mehlhorn 1983: at most four times the least number of pieces).
 
     Parameters
     ----------
@@ -60,7 +61,11 @@ def _divided(shape: Any, x_axis: Array, mirrored: bool, tolerance: float) -> lis
     clean = _cleaned(clean, tolerance)
     if _is_convex(clean):
         return [shapely.convex_hull(clean)]
-    flat, origin = _canonical(clean, x_axis, mirrored, root * _GRID)
+    x = x_axis / np.hypot(*x_axis)
+    turn = np.column_stack([x, np.array([-x[1], x[0]]) * (-1.0 if mirrored else 1.0)])
+    if found := rectangles(clean, turn, tolerance):
+        return found
+    flat, origin = _canonical(clean, turn, root * _GRID)
     loops = _merged(_triangles(flat), tolerance / (root * _GRID))
     hulls = shapely.convex_hull([shapely.multipoints([origin[point] for point in loop]) for loop in loops])
     return list(hulls[shapely.area(hulls) > 1e-9 * root**2])
@@ -84,14 +89,12 @@ def _cleaned(shape: Any, tolerance: float) -> Any:
     return clean if clean.is_valid and clean.area > 0.0 else shape
 
 
-def _canonical(shape: Any, x_axis: Array, mirrored: bool, grid: float) -> tuple[Any, dict[Point, Point]]:
-    """Return a polygon in its own axes, on a grid, and the place of each of its vertices.
+def _canonical(shape: Any, turn: Array, grid: float) -> tuple[Any, dict[Point, Point]]:
+    """Return a polygon in its own axes, columns of `turn`, on a grid, and the place of each of its vertices.
 
     Roundoff thus leaves no trace, and a polygon that was moved is divided as before. The origin is the
     centroid; the grid is such that plain numbers do not lie half way between its points.
     """
-    x = x_axis / np.hypot(*x_axis)
-    turn = np.column_stack([x, np.array([-x[1], x[0]]) * (-1.0 if mirrored else 1.0)])
     middle = shapely.get_coordinates(shapely.centroid(shape))[0]
     points = shapely.get_coordinates(shape)
     units = np.round((points - middle) @ turn / grid) + 0.0

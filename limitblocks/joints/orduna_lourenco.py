@@ -84,8 +84,8 @@ class OrdunaLourenco(Queries):
       exact stress block for bending about one axis of a rectangle. Elsewhere the moment is up to
       1 + sqrt(-N / (A fcef)) times that of the stress block, on any convex polygon: so much towards a corner
       of a triangle; along the diagonal of a rectangle 1.28 times at a tenth of A fcef, and up to 1.5 times at
-      a half. Areas divided into convex pieces have the errors of each. Torsion and shear are not reduced by
-      crushing;
+      a half. Areas divided into convex pieces have the errors of each: none towards a side of one divided
+      into rectangles. Torsion and shear are not reduced by crushing;
     - cohesion acts on the whole area whatever the eccentricity, which overestimates it once a joint opens.
 
     Parameters

@@ -167,4 +167,4 @@ def test_each_piece_of_an_area_is_asked_for_its_moment():
         Q = np.zeros((2, 6))
         Q[bent] = share * strength * 1.0 * np.array([0, 0, -1, -e[1], e[0], 0])  # a triangle of 1 m2
         (said,) = crushing.beyond_stress_block(model, Q)
-        assert "ground|foot carries 1.30 times" in said
+        assert "(39): a piece of ground|foot carries 1.30 times" in said
