@@ -8,11 +8,30 @@ import limitblocks as lb
 from limitblocks.structures import build
 from limitblocks.structures.bond import Bond
 
+SQUARE = np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])
+
 
 def model_of(stones, supports, joint, direction=(1, 0, 0), name=""):
     """Stones with one joint wherever they touch, under their weight, pushed along `direction`."""
     found = lb.find_interfaces(stones, joint)
     return lb.Model(stones, supports, found, lb.self_weight(), lb.mass_proportional(direction), name)
+
+
+def shaft(outline=SQUARE, hole=0.6, height=1.0, courses=1):
+    """Courses with a hole, `hole` times their outline about the origin, on the ground."""
+    n = len(outline)
+    around = np.concatenate([np.multiply(outline, by) for by in (1.0, hole)])
+    corners = np.concatenate([np.column_stack([around, np.full(2 * n, z)]) for z in (0.0, height)])
+    faces = []
+    for k in range(n):
+        j = (k + 1) % n
+        faces += [(k, j, 2 * n + j, 2 * n + k), (n + j, n + k, 3 * n + k, 3 * n + j)]
+        faces += [(j, k, n + k, n + j), (2 * n + k, 2 * n + j, 3 * n + j, 3 * n + k)]
+    rings = [
+        lb.Block(f"course {k + 1}", corners + np.array([0, 0, k * height]), faces, 20e3)
+        for k in range(courses)
+    ]
+    return [lb.Block.box("ground", (20.0, 20.0, 1.0), (0.0, 0.0, -0.5)), *rings]
 
 
 def volume(model):

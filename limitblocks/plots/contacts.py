@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.drawing.chains import chains, crowded, touching
+from limitblocks.drawing.chains import Joint, chains, crowded, joints_between, thrust
 from limitblocks.drawing.ties import has_area, tie_lines
 from limitblocks.errors import ModelError
 from limitblocks.evidence import interface_states as states
@@ -108,13 +108,15 @@ def thrust_line(
     """Draw the line of thrust of an arch, a column or another chain of blocks, and its hinges.
 
     The line joins the centres of pressure, (e1, e2) = (-M2, M1) / N off the centroids, in the order of the
-    blocks; it breaks at an interface without a normal force.
+    blocks; it breaks at an interface without a normal force. The pieces of a joint in one plane, as of a
+    hollow shaft or a stone on two feet, count as one, pressed where their resultant acts.
 
     Parameters
     ----------
     model : Model
-        Its free blocks are a chain: none touches others in more than two interfaces, and they do not form a
-        ring. Ties, strips, dowels and passive fill do not count.
+        Its free blocks are a chain: none touches others in more than two joints, and they do not form a
+        ring. The faces of a joint in several planes, as a step, are as many joints. Ties, strips, dowels and
+        passive fill do not count.
     result : Bounds, Nonassociated or LoadPath
         Of this model.
     ax, plane
@@ -131,9 +133,9 @@ def thrust_line(
     order = chain(model)
     drawn = canvas(model, ax, plane)
     _pale(drawn, model)
-    line = interfaces.centre_of_pressure[order]
+    line = thrust(interfaces, order)
     drawn.plot(line, "-", color=VERMILION, linewidth=1.6, label="line of thrust")
-    hinges = line[["hinge" in interfaces.state[k] for k in order]]
+    hinges = line[[any("hinge" in interfaces.state[k] for k in joint) for joint in order]]
     if len(hinges):
         style = {"markerfacecolor": "white", "markeredgecolor": BLACK, "markersize": 5.5}
         drawn.plot(hinges, "o", label="hinge", **style)
@@ -141,15 +143,15 @@ def thrust_line(
     return drawn.ax
 
 
-def chain(model: Model) -> list[int]:
-    """Positions of the interfaces in the order of a chain of blocks; ModelError if they are none."""
+def chain(model: Model) -> list[Joint]:
+    """Joints, by the places of their interfaces, in the order of a chain; ModelError if they are none."""
     if block := crowded(model):
         raise ModelError(
-            f"block {block[0]!r} has {many(block[1], 'interface')}; "
+            f"block {block[0]!r} has {many(block[1], 'joint')}, each in one plane; "
             "a line of thrust needs a chain of blocks, at most two each"
         )
     lines = chains(model)
-    if len(lines) != 1 or len(lines[0]) < len(touching(model)):
+    if len(lines) != 1 or len(lines[0]) < len(joints_between(model)):
         raise ModelError("the blocks form more than one chain, or a ring; a line of thrust needs one chain")
     return lines[0]
 

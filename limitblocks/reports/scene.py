@@ -22,7 +22,7 @@ from limitblocks.mechanics.loads.load import resultant
 from limitblocks.model import Model
 from limitblocks.reports.words import joint_words
 
-SCENE_VERSION = 3
+SCENE_VERSION = 4
 DIGITS = 6  # of coordinates and stress resultants
 DRAWN_DIGITS = 4  # of what is drawn more than read: displacements, and forces before collapse
 NOISE = 1e-7  # of the largest of its kind: shown as zero

@@ -8,7 +8,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from prisms import DOCS, SQUARE, prism, pushed, shaft
+from prisms import DOCS, prism, pushed
 from rectangles import (
     AREA,
     C_T,
@@ -24,6 +24,7 @@ from rectangles import (
     states,
 )
 from scipy.optimize import brentq
+from stones import SQUARE, shaft
 
 import limitblocks as lb
 from limitblocks.geometry import pieces
@@ -208,7 +209,7 @@ def test_how_an_area_is_divided_does_not_matter_without_crushing(outline, angle,
                 ["ground"],
                 lb.find_interfaces(blocks, lb.OrdunaLourenco(0.0)),
                 lb.self_weight(),
-                lb.loads.moment("foot", (-out[1] * 1e6, out[0] * 1e6, 0.0)),
+                lb.loads.moment(blocks[1].name, (-out[1] * 1e6, out[0] * 1e6, 0.0)),
             )
         found.append([number for model in (points, hinges) for number in _both(lb.bounds(model))])
     assert found[0] == pytest.approx(found[1], rel=2e-6)

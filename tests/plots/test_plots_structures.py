@@ -14,9 +14,10 @@ from matplotlib.quiver import Quiver
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from mpl_toolkits.mplot3d.proj3d import proj_transform
 from plotted import arch, bounds, corner, inked, path, rocking
-from stones import model_of
+from stones import model_of, shaft
 
 import limitblocks as lb
+from limitblocks.drawing.chains import chains, thrust
 from limitblocks.drawing.painter import painting_order, placed
 from limitblocks.evidence.interface_states import interface_states
 from limitblocks.plots.style import VERMILION
@@ -200,8 +201,35 @@ def test_thrust_line_goes_through_the_joints_of_what_is_tied():
     assert np.allclose(line, [(0.25 + off[0], 0.0), (0.25 + off[1], 0.5)], atol=1e-6)
 
 
+@pytest.mark.parametrize("direction", [(1.0, 0.0, 0.0), (0.6, 0.8, 0.0)])
+def test_thrust_line_of_a_hollow_shaft_is_that_of_its_joints(direction):
+    """Under a push H = a W at half the height h above a joint e = H h / W, whatever its pieces carry."""
+    model = model_of(shaft(courses=3), ["ground"], lb.OrdunaLourenco(0.9), direction)
+    result = lb.bounds(model)
+    assert len(model.interfaces) == 12
+    above = np.array([3.0, 2.0, 1.0])
+    expected = np.outer(result.lower * above / 2, direction) + np.outer(3.0 - above, (0, 0, 1))
+    assert thrust(interface_states(model, result), chains(model)[0]) == pytest.approx(expected, abs=1e-6)
+    ax = lb.plots.thrust_line(model, result, plane="xz")
+    assert ax.lines[0].get_xydata() == pytest.approx(expected[:, [0, 2]], abs=1e-6)
+    assert len(ax.lines[1].get_xydata()) == 1  # one hinge, of all pieces
+
+
+def test_thrust_line_of_a_stone_on_two_feet_is_between_them():
+    """Feet of .2 m at x = +-.5 m, W at the middle, H = a W at z = .4 m: x = .4 a."""
+    outline = [(-0.6, 0), (-0.4, 0), (-0.4, 0.2), (0.4, 0.2), (0.4, 0), (0.6, 0), (0.6, 0.6), (-0.6, 0.6)]
+    stone = lb.Block.prism("stone", outline, (-0.2, 0.2), 20e3)
+    model = model_of(
+        [lb.Block.box("ground", (3.0, 1.0, 0.2), (0, 0, -0.1)), stone], ["ground"], lb.PointContact(0.2)
+    )
+    line = lb.plots.thrust_line(model, lb.nonassociated(model)).lines[0].get_xydata()
+    assert line == pytest.approx(np.array([(0.2 * stone.centroid[2], 0.0)]), abs=1e-6)
+
+
 def test_thrust_line_needs_a_chain():
-    with pytest.raises(lb.ModelError, match=r"block '.*' has \d interfaces; a line of thrust needs a chain"):
+    with pytest.raises(
+        lb.ModelError, match=r"block '.*' has \d joints, each in one plane; a line of thrust needs"
+    ):
         lb.plots.thrust_line(corner(), bounds(corner))
 
 

@@ -3,13 +3,14 @@ import re
 import sys
 from itertools import pairwise
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from stones import model_of
 
 import limitblocks as lb
-from limitblocks.drawing.chains import chains
+from limitblocks.drawing.chains import chains, joints_between
 from limitblocks.drawing.view import towards
 from limitblocks.evidence.interface_states import interface_states
 from limitblocks.practice import passive_fill, reinforced, tie
@@ -132,7 +133,7 @@ def test_the_viewer_looks_from_the_side_to_which_the_mechanism_moves(arch, resul
 def test_thrust_line_runs_from_support_to_support(arch):
     (chain,) = chains(arch)
     assert len(chain) == len(arch.interfaces)
-    ends = [{arch.interfaces[k].block_i, arch.interfaces[k].block_j} for k in chain]
+    ends = [{arch.interfaces[k].block_i, arch.interfaces[k].block_j} for (k,) in chain]
     assert all(one & other for one, other in pairwise(ends))
     assert ends[0] & set(arch.supports)
     assert ends[-1] & set(arch.supports)
@@ -142,6 +143,37 @@ def test_only_chains_have_a_thrust_line():
     assert chains(lb.structures.wall(JOINT, length=2.0, courses=3)) == []
     (column,) = chains(lb.structures.column(JOINT, count=4, width=1.0, height=1.0))
     assert len(column) == 4
+
+
+@pytest.mark.parametrize("step", [0.0, 0.2])
+def test_pieces_of_a_joint_in_one_plane_are_one_of_a_chain(step):
+    """Two stones, the upper one on two feet of the lower, the second of them higher by a step."""
+    low = [(0, 0), (3, 0), (3, 1 + step), (2, 1 + step), (2, 0.5), (1, 0.5), (1, 1), (0, 1)]
+    high = [(0, 1), *([(1, 1), (1, 1 + step)] if step else []), (3, 1 + step), (3, 2), (0, 2)]
+    stones = [
+        lb.Block.box("ground", (5.0, 1.0, 1.0), (1.5, 0.5, -0.5)),
+        lb.Block.prism("low", low, (0.0, 1.0), 20e3),
+        lb.Block.prism("high", high, (0.0, 1.0), 20e3),
+    ]
+    model = model_of(stones, ["ground"], JOINT)
+    named = [
+        [k for k, one in enumerate(model.interfaces) if one.name == name]
+        for name in ("ground|low", "low|high")
+    ]
+    expected = [] if step else [named]
+    assert scene(model, [], "stones")["chains"] == [[tuple(joint) for joint in chain] for chain in expected]
+
+
+@pytest.mark.parametrize(
+    ("turn", "lift", "count"), [(0.0, 0.0, 1), (5e-3, 5e-3, 1), (0.1, 0.0, 2), (0.0, 0.1, 2)]
+)
+def test_pieces_are_in_one_plane_as_near_as_faces_that_touch(turn, lift, count):
+    """Two areas 1 m apart along s1, one of them turned about it and lifted."""
+    turned = np.array([(1, 0, 0), (0, np.cos(turn), np.sin(turn)), (0, -np.sin(turn), np.cos(turn))])
+    square = np.array([(0.2, -0.2), (0.2, 0.2), (-0.2, 0.2), (-0.2, -0.2)])
+    one = lb.Interface("a", "b", np.zeros(3), np.eye(3), square, JOINT)
+    other = lb.Interface("a", "b", np.array([1.0, 0.0, lift]), turned, square, JOINT)
+    assert len(joints_between(SimpleNamespace(interfaces=(one, other)))) == count
 
 
 def test_ties_and_fill_leave_a_thrust_line(arch):

@@ -91,10 +91,10 @@ class Contacts {
     const matrix = new THREE.Matrix4();
     let count = 0;
     for (const chain of this.scene.chains) {
-      const ends = chain.filter((k) => Number.isFinite(this.step.centres[3 * k]));
+      const ends = chain.map((joint) => this.pressed(joint)).filter((end) => end);
       for (let c = 0; c + 1 < ends.length; c++) {
-        const from = this.places[ends[c]];
-        const along = this.places[ends[c + 1]].clone().sub(from);
+        const from = ends[c];
+        const along = ends[c + 1].clone().sub(from);
         const length = along.length() || 1e-12;
         const turn = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 1, 0), along.normalize());
         const width = 0.003 * this.size;
@@ -105,6 +105,15 @@ class Contacts {
     }
     this.thrust.count = count;
     this.thrust.instanceMatrix.needsUpdate = true;
+  }
+
+  // Where the pieces of a joint press together: the mean of their places, by their normal forces.
+  pressed(joint) {
+    const loaded = joint.filter((k) => Number.isFinite(this.step.centres[3 * k]));
+    const normal = (k) => this.step.stresses[6 * k + 2];
+    const total = loaded.reduce((sum, k) => sum + normal(k), 0);
+    const mean = (sum, k) => sum.addScaledVector(this.places[k], normal(k) / total);
+    return total < 0 ? loaded.reduce(mean, new THREE.Vector3()) : null;
   }
 
   paint(step, colourOf, picked, pickedColour) {
