@@ -17,8 +17,8 @@ from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Mome
 from limitblocks.mechanics.loads.load import Load, vector
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import Control
-from limitblocks.practice.displaced import CLOSED, Assembly, Truths, moved
-from limitblocks.practice.rejoined import closed_up, joined, meet, slid
+from limitblocks.practice.displaced import CLOSED, Assembly, Contact, Truths, moved
+from limitblocks.practice.rejoined import closed_up, joined, meet, parallel, slid
 from limitblocks.shown import coordinates
 
 FOLLOWS = (MassProportional, AddedMass, PointForce, Moment)  # loads that know where a moved block is
@@ -174,8 +174,8 @@ def _motion(assembly: Assembly, rates: Array) -> tuple[list[Truths], list[bool],
     """Which corners of each contact are closed and stay so, which contacts slide, and ties that yield."""
     centres = np.stack([block.centroid for block in assembly.model.blocks])
     least = STILL * largest_rate(assembly.model, rates)
-    held, sliding, yielding = [], [], set()
-    for number, own in enumerate(assembly.contacts):
+    motions: list[tuple[Contact, Array, Truths]] = []
+    for own in assembly.contacts:
         speeds = [
             rates[k, :3] + np.cross(rates[k, 3:], points - centres[k])
             for k, points in zip(own.ends, (own.on_i, own.on_j), strict=True)
@@ -183,15 +183,33 @@ def _motion(assembly: Assembly, rates: Array) -> tuple[list[Truths], list[bool],
         relative = (speeds[1] - speeds[0]) @ own.interface.axes.T
         if own.tied:
             relative[:, 2] *= -1.0  # its gap is what it is slack
-        shut = own.ways[:, 2] <= 10.0 * CLOSED * assembly.size
-        # a strip along closed corners turns about its other edge: what is pressed there opens nowhere
-        slowest = relative[shut, 2].min(initial=np.inf) if own.pressed else 0.0
+        motions.append((own, relative, own.ways[:, 2] <= 10.0 * CLOSED * assembly.size))
+    held, sliding, yielding = [], [], set()
+    for number, ((own, relative, shut), slowest) in enumerate(zip(motions, _last(motions), strict=True)):
         closed = shut & (relative[:, 2] <= max(slowest, 0.0) + least)
         if own.tied and (closed & (relative[:, 2] < -least)).any():
             yielding.add(number)
         held.append(closed & own.rigid & (number not in yielding))
         sliding.append(bool((np.linalg.norm(relative[closed, :2], axis=1) > least).any()) and not own.tied)
     return held, sliding, yielding
+
+
+def _last(motions: list[tuple[Contact, Array, Truths]]) -> list[float]:
+    """Speeds at which the closed corners of pressed joints open that do so last; 0 of others.
+
+    A strip along closed corners turns about its other edge: what is pressed there opens nowhere, be it in
+    one piece or in several between the same blocks.
+    """
+    pieces: dict[tuple[int, int], list[tuple[Contact, float]]] = {}
+    for own, relative, shut in motions:
+        if not own.tied:
+            pieces.setdefault(own.ends, []).append((own, relative[shut, 2].min(initial=np.inf)))
+    return [
+        min(slowest for one, slowest in pieces[own.ends] if parallel(one.axes_i, own.axes_i))
+        if own.pressed and not own.tied
+        else 0.0
+        for own, _, _ in motions
+    ]
 
 
 def _at_odds(assembly: Assembly, rates: Array, held: list[Truths], sliding: list[bool]) -> set[int]:

@@ -120,7 +120,7 @@ def slid(assembly: Assembly, sliding: list[bool]) -> tuple[Assembly, tuple[str, 
             kept.append(own)
         elif isinstance(own.interface.joint, Dowel):
             said.append(f"{own.interface.name} shears off")
-        elif not _parallel(own.axes_i, own.axes_j) or np.ptp(own.ways[:, 2]) > CLOSED * assembly.size:
+        elif not parallel(own.axes_i, own.axes_j) or np.ptp(own.ways[:, 2]) > CLOSED * assembly.size:
             gap, of_j = own.ways[:, 2:] * own.axes[:, 2], own.on_face_i[:, None]
             moved_on = replace(own, on_i=own.rest - of_j * gap, on_j=own.rest + ~of_j * gap)
             blocks = assembly.model.blocks
@@ -158,10 +158,11 @@ def _shared(
     faces = find_contacts([blocks[k] for k in ends], None, gap=exactly, angle=exactly).interfaces
     found = []
     for face in faces:
-        joint = [own.interface.joint for own in like if _parallel(own.axes_i, face.axes)]
+        joint = [own.interface.joint for own in like if parallel(own.axes_i, face.axes)]
         found += [contact(replace(face, joint=joint[0]), blocks, place)] if joint else []
     return found
 
 
-def _parallel(axes: Array, others: Array) -> bool:
+def parallel(axes: Array, others: Array) -> bool:
+    """Whether the normals of two sets of axes (3, 3), rows, are."""
     return bool(abs(axes[2] @ others[2]) > 1.0 - PARALLEL)

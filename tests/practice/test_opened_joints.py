@@ -1,5 +1,7 @@
 """Opened joints: gaps and steps of faces, rims overrun by a little, pressure off closed corners."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -99,3 +101,25 @@ def test_pieces_of_an_opened_joint_do_not_overlap():
     assert [one.load_factor for one in curve.points] == pytest.approx(factors, abs=1e-8)
     assert curve.zero == pytest.approx(h * np.sin(np.arctan(2 * a / h)), abs=1e-6)
     assert curve.points[1].changes == ("foot|shaft opens",)  # once, not for each piece
+
+
+def test_a_joint_in_two_pieces_snaps_as_one():
+    """Points are in the hull of the corners: an arch whose joints are halved across moves as the whole one.
+
+    A piece that was pressed before the arch snapped turned about its own edge, in the middle of its joint.
+    """
+    model = lb.structures.arch(lb.PointContact(0.7), radius=2.0, thickness=0.5, voussoirs=5)
+    halves = []
+    for own in model.interfaces:
+        across = np.abs(own.axes @ (0.0, 1.0, 0.0)) < 0.5  # s1 or s2, not along the depth
+        for sign in (-0.5, 0.5):
+            off = sign * np.abs(own.polygon).max(axis=0) * across[:2]
+            polygon = np.where(across[:2], 0.5, 1.0) * own.polygon
+            halves.append(replace(own, centroid=own.centroid + off @ own.axes[:2], polygon=polygon))
+    whole, divided = (capacity_curve(one, steps=2) for one in (model, replace(model, interfaces=halves)))
+    assert any(point.snapped for point in whole.points)
+    for one, other in zip(whole.points, divided.points, strict=True):
+        assert [other.displacement, other.load_factor] == pytest.approx(
+            [one.displacement, one.load_factor], abs=1e-5
+        )
+    assert divided.zero == pytest.approx(whole.zero, abs=1e-6)
