@@ -126,13 +126,14 @@ def least_ties(model: Model, candidates: Sequence[Element], load_factor: float) 
             )
     tied = with_elements(model, *candidates)
     problem = tied.problem
-    ties = problem.stress_interface >= len(model.interfaces)
+    known, owner = len(model.interfaces), problem.stress_interface  # in the order of the joints
+    ties = owner >= known
     weights = np.where(ties, problem.stress_units, 0.0)
     try:
         forces = least_stresses(problem, required * problem.units.live, weights)
     except ModelError as error:
         raise ModelError(f"{error}; with their whole strengths it has {bounds(tied).upper:.6g}") from None
-    amounts = _needed((forces * weights)[ties], problem)
+    amounts = _needed(np.bincount(owner, forces * weights).astype(np.float64)[known:], problem)
     kept = [_of_force(one, float(k)) for one, k in zip(candidates, amounts, strict=True) if k]
     kinds = tuple(
         f"{one.interface.name} at {coordinates(one.interface.centroid.tolist())} m" for one in candidates

@@ -33,8 +33,8 @@ def wall():
     return model_of(facades.wall_stones(), ["ground"], JOINT)
 
 
-def rod(height, capacity=1e5):
-    return tie("wall", (-T / 2, 0, height), "ground", (-6, 0, height), area=1e-3, strength=capacity / 1e-3)
+def rod(height, capacity=1e5, end=-6.0):
+    return tie("wall", (-T / 2, 0, height), "ground", (end, 0, height), area=1e-3, strength=capacity / 1e-3)
 
 
 def test_least_tie_is_the_highest():
@@ -44,6 +44,13 @@ def test_least_tie_is_the_highest():
     assert found.amounts == pytest.approx([0.0, own * (required * H - T) / 2 / 4.5], rel=1e-6)
     assert found.bounds.lower >= required * (1 - 1e-5)
     assert found.result.load_factor == pytest.approx(required, rel=1e-5)
+
+
+def test_a_longer_tie_among_candidates_of_one_kind_gets_its_own_force():
+    """Moments about the toe, as above: the highest of three, of which the others are of one length."""
+    required, own = 0.3, WEIGHT * T * H
+    found = least_ties(wall(), [rod(2.0), rod(4.5, end=-9.0), rod(3.0)], required)
+    assert found.amounts == pytest.approx([0.0, own * (required * H - T) / 2 / 4.5, 0.0], rel=1e-6)
 
 
 def test_least_mass_goes_to_the_outermost_and_lowest_place():
