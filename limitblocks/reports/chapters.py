@@ -58,8 +58,8 @@ STANDS = (
 NOT_STATED = "not stated"
 UNTITLED = "Limit analysis of a rigid-block structure"
 OWN = (
-    "It is the answer of the chapter {}. This report has no certified load factor of its model without "
-    "dilatancy, and nothing is said about safety beyond what that chapter says."
+    "It is the answer of the chapter {}. This report has no load factor to design with, and nothing is said "
+    "about safety beyond what that chapter says."
 )
 JUDGED = "Safety: chapter {}: {}, {}."
 UNCOMPARED = "Safety: the demand {:.15g} is not compared with anything."

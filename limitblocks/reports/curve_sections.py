@@ -43,6 +43,7 @@ def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
         ),
         headline=f"{cut(end)} m",
         quantity=f"displacement at {ended}",
+        own=True,
         values=(
             ("Load factor at rest", figures(first.load_factor, 7), "without dilatancy, the first point"),
             ("Ends", f"{figures(end, 6)} m", curve.ended),
@@ -106,6 +107,7 @@ def collapse_section(_model: Model, curve: SettlementCurve) -> Section:
         ),
         headline=f"{cut(curve.stands_to)} m",
         quantity="settlement up to which " + (_GAPS if curve.filled else "it stands" + _FALLS * fallen),
+        own=True,
         values=(
             ("Stands up to", f"{figures(curve.stands_to, 7)} m", _GAPS),
             *(

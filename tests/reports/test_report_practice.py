@@ -1,6 +1,7 @@
 """What practice computes, in reports: every fact in every rendering, and refusals."""
 
 import json
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -225,6 +226,20 @@ def test_a_point_whose_dead_loads_alone_fall_says_so():
     point = SimpleNamespace(changes=("a|b opens",), shift=-0.458)
     assert _changes(point).endswith("the dead loads alone do not stand: solved from 0.458 of the live load")
     assert _changes(SimpleNamespace(changes=(), shift=0.0)) == "none"
+
+
+def test_a_report_of_a_curve_alone_heads_with_its_displacement(facade, answers, reports):
+    """H sin(a) where wall and floor are over the toe; beside a load factor that one is at the head."""
+    head = lb.report(facade, answers[2]).text.split("Model\n")[0]
+    turn = np.arctan((OWN * T / 2 + FLOOR * ARM) / (OWN * H / 2 + FLOOR * H))
+    shown = re.search(r"([.\d]+) m  displacement at load factor zero", head)
+    assert float(shown[1]) == pytest.approx(H * np.sin(turn), abs=1e-4)
+    assert "none" not in head
+    assert "Load factor to design with" in reports[0].text.split("Model\n")[0]
+    ring = lb.structures.arch(lb.PointContact(friction=0.8), radius=1.0, thickness=0.2, voussoirs=8)
+    settled = settlement_to_collapse(ring, "right support", (1, 0, 0), largest=0.01)
+    head = lb.report(ring, settled).text.split("Model\n")[0]
+    assert "0.01000 m  settlement up to which it stands" in head
 
 
 def test_a_curve_of_one_point_is_warned_of(facade, answers):
