@@ -18,6 +18,7 @@ from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
 from limitblocks.practice.displaced import CLOSED, Assembly
 from limitblocks.practice.kept import gathered, solved
+from limitblocks.practice.rejoined import joined
 from limitblocks.practice.settlement import Settlement, settlement
 from limitblocks.practice.settling import settling
 from limitblocks.practice.touching import across
@@ -89,11 +90,12 @@ def settlement_to_collapse(
     place = next(block for block in model.blocks if block.name == first).centroid
     control = Control(first, place, unit)
 
-    def found(there: Model) -> Settlement:
-        answer = partial(settlement, there, own.supports, unit.tolist(), without_dilatancy=without_dilatancy)
+    def found(there: Assembly) -> Settlement:
+        now = joined(there, [there.contacts[k] for k in there.tight])
+        answer = partial(settlement, now, own.supports, unit.tolist(), without_dilatancy=without_dilatancy)
         return replace(solved(answer), digest=model.digest)
 
-    begin = SettlementPoint(0.0, found(model), ())
+    begin = SettlementPoint(0.0, found(assembly), ())
     lengths = min(step, FIRST * size), step, accuracy, largest
     points, end = gathered(_way(assembly, control, begin, found, lengths), progress)
     falls, ended = (None, end) if isinstance(end, str) else end
@@ -104,7 +106,7 @@ def _way(
     assembly: Assembly,
     control: Control,
     point: SettlementPoint,
-    found: Callable[[Model], Settlement],
+    found: Callable[[Assembly], Settlement],
     lengths: tuple[float, float, float, float],
 ) -> Generator[SettlementPoint, None, tuple[float | None, str]]:
     """Yield the points; return the settlement at which it falls, or None, and why the way ends."""
@@ -126,7 +128,7 @@ def _way(
                 if there is None:
                     return None, stopped(point.displacement)
                 at = point.displacement + float((there.control.point - control.point) @ control.direction)
-                answer, why = found(there.assembly.model), ""
+                answer, why = found(there.assembly), ""
                 break
             except NoEquilibrium:
                 falls, why = at, f"the structure falls between {point.displacement:.9g} and {at:.9g} m"
@@ -148,14 +150,15 @@ def _bears(assembly: Assembly, found: Settlement) -> bool:
     moving = found.settling.supports
     forces = (found.result or found.bounds).stress_resultants
     resultant = np.zeros(3)
-    for own, force in zip(assembly.contacts, forces, strict=False):  # guides come last
+    for k, force in zip(assembly.tight, forces, strict=False):  # guides come last
+        own = assembly.contacts[k]
         sign = (own.interface.block_i in moving) - (own.interface.block_j in moving)
         resultant += sign * force[:3] @ own.interface.axes
     return float(np.linalg.norm(resultant)) > CLOSED * found.settling.unit
 
 
 def _settled(
-    there: Advanced, at: float, answer: Settlement, found: Callable[[Model], Settlement]
+    there: Advanced, at: float, answer: Settlement, found: Callable[[Assembly], Settlement]
 ) -> tuple[Advanced, SettlementPoint]:
     """The point after a step; joints that press across a gap are closed where it then stands without any.
 
@@ -167,7 +170,7 @@ def _settled(
     if closed is None:
         return there, point
     try:
-        again = found(closed.assembly.model)
+        again = found(closed.assembly)
     except SolveError:
         return there, point
     if _across(closed, again):
@@ -177,8 +180,8 @@ def _settled(
 
 def _across(there: Advanced, answer: Settlement) -> dict[int, str]:
     end = answer.result or answer.bounds
-    forces = end.stress_resultants[: len(there.assembly.contacts)]  # without those of guides
-    return across(there.assembly, forces, list(range(len(forces))))
+    tight = there.assembly.tight
+    return across(there.assembly, end.stress_resultants[: len(tight)], tight)  # without those of guides
 
 
 def _rates(found: Settlement) -> Array:

@@ -158,6 +158,12 @@ class Assembly:
         points = np.concatenate([block.vertices for block in self.model.blocks])
         return float(pdist(points[ConvexHull(points - points[0]).vertices]).max())
 
+    @cached_property
+    def tight(self) -> list[int]:
+        """Numbers of the contacts without ties that are slack."""
+        least = 10.0 * CLOSED * self.size
+        return [k for k, own in enumerate(self.contacts) if not own.tied or own.ways[0, 2] <= least]
+
 
 def assembly_of(model: Model) -> Assembly:
     """Return the structure where it is first."""

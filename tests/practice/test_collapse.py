@@ -1,5 +1,7 @@
 """A support that settles until the structure falls: closed forms of arches and beams."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
@@ -9,7 +11,8 @@ from stones import model_of
 
 import limitblocks as lb
 from limitblocks.arrays import read_only
-from limitblocks.practice import Control, settlement_to_collapse
+from limitblocks.loads import force
+from limitblocks.practice import Control, reinforced, settlement_to_collapse, tie
 from limitblocks.practice.advance import Advanced, shut
 from limitblocks.practice.displaced import assembly_of, moved
 
@@ -240,3 +243,20 @@ def test_slip_of_associated_flow_opens_the_joint_of_a_support_that_slides_away()
     assert "m is reached; beyond 0 m joints press across their gaps, as slip of associated flow" in str(curve)
     (section,) = (one for one in lb.report(model, curve).sections if one.title.startswith("Settlement"))
     assert section.quantity == "settlement up to which no joint presses across a gap"
+
+
+def test_a_slack_tie_carries_nothing_until_its_ends_are_as_far_apart_again():
+    """A stone that 1 kN holds back rides on a plate; a tie of it, .2 m ahead, is passed and slack to .4 m."""
+    stones = [
+        lb.Block.box("plate", (4.0, 1.0, 0.2), (0, 0, -0.1)),
+        lb.Block.box("mast", (0.2, 1.0, 1.0), (5.0, 0, 0.5)),
+        lb.Block.box("stone", (0.5, 1.0, 0.5), (0, 0, 0.25), 20e3),
+    ]
+    alone = model_of(stones, ["plate", "mast"], lb.PointContact(0.6))
+    held_back = replace(alone, dead=alone.dead + force("stone", (-1e3, 0, 0), (0, 0, 0)))
+    rod = tie("stone", (0, 0, 0.5), "mast", (0.2, 0, 1.0), area=1e-4, strength=20e6)
+    way = settlement_to_collapse(
+        reinforced(held_back, rod), "plate", (1, 0, 0), step=0.1, largest=0.35, without_dilatancy=False
+    )
+    assert way.displacements[-1] == pytest.approx(0.35)
+    assert way.reactions == pytest.approx(np.full(len(way.points), -1e3), rel=1e-6)
