@@ -16,8 +16,6 @@ from limitblocks.evidence.limits import Limits
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Flow, State
 
-PARTS = ("limits", "flow", "loads", "mechanism")
-
 
 def parts(error):
     return {part.name: part.value for part in error.parts}

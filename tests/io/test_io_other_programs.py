@@ -29,11 +29,6 @@ def pillar(stones=4):
     return [base, *(lb.Block.box(f"s{k}", (1.0, 1.0, 1.0), (0.0, 0.0, k + 0.5), 2e4) for k in range(stones))]
 
 
-def bounds_of(blocks, supports):
-    model = lb.Model(blocks, supports, lb.find_interfaces(blocks, JOINT), lb.self_weight(), LIVE)
-    return lb.bounds(model)
-
-
 # Rhino
 
 

@@ -12,7 +12,6 @@ from limitblocks import structures
 from limitblocks.structures import Fill, Piers
 
 JOINT = lb.PointContact(0.8)
-GAMMA = 20e3
 
 
 def along(model, axis, load="dead"):

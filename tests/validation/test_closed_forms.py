@@ -25,15 +25,6 @@ def assert_bounds(model, expected):
 
 
 @pytest.mark.parametrize("flow", FLOWS)
-@pytest.mark.parametrize("friction", [0.2, 0.6])
-@pytest.mark.parametrize(("b", "h"), [(0.5, 1.0), (1.0, 0.4)])
-@pytest.mark.parametrize("direction", [(1, 0, 0), (-1, 0, 0), (0, 1, 0)])
-def test_block_slides_or_rocks(joint_type, flow, friction, b, h, direction):
-    build = partial(structures.block, width=b, height=h, depth=b, direction=direction)
-    assert ANALYSES[flow](build, joint_type(friction)) == pytest.approx(min(friction, b / h), rel=CLOSE)
-
-
-@pytest.mark.parametrize("flow", FLOWS)
 def test_leaves_with_a_smooth_joint_rock_one_by_one(joint_type, flow):
     build = partial(leaves, between=joint_type(0.0))
     assert ANALYSES[flow](build, joint_type(0.6)) == pytest.approx(0.12 / 2.4, rel=CLOSE)
