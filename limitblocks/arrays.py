@@ -117,24 +117,12 @@ def first_tied(pairs: Indices, count: int) -> Indices:
     return np.asarray(np.unique(part, return_index=True)[1][part])
 
 
-def _without_pattern(count: int) -> Array:
-    """Numbers whose sums tell unlike rows apart."""
-    return np.asarray(np.cos(np.arange(count) ** 2 + 1.0))
-
-
 def equal_rows(values: Array) -> tuple[Indices, Indices]:
-    """The first of each class of rows (K, d) with the same bits, and the class of each (K,).
-
-    Rows are sorted by a key of their bits; those of the same key, but not the same, are classes of their own.
-    """
-    bits = np.ascontiguousarray(values).view(np.uint64)
-    # of an arithmetic series rows of 1 and -1 in many orders would have one key
-    odd = _without_pattern(bits.shape[1]).view(np.uint64) | np.uint64(1)
-    key = np.einsum("kd,d->k", bits ^ (bits >> np.uint64(32)), odd)  # modulo 2^64: in any order the same
-    _, first, label = np.unique(key, return_index=True, return_inverse=True)
-    other = np.flatnonzero((values[first[label]] != values).any(axis=1))
-    label[other] = len(first) + np.arange(len(other))
-    return np.concatenate([first, other]), label
+    """The first of each class of rows (K, d) with the same bits, and the class of each (K,)."""
+    rows = np.ascontiguousarray(np.pad(values, ((0, 0), (1, 0))))  # those without columns are equal, too
+    bits = rows.view(np.dtype((np.void, rows.itemsize * rows.shape[1]))).ravel()
+    _, first, label = np.unique(bits, return_index=True, return_inverse=True)
+    return first, label
 
 
 def same_rows(values: Array, within: float = 0.0) -> tuple[Indices, Indices]:
@@ -142,7 +130,7 @@ def same_rows(values: Array, within: float = 0.0) -> tuple[Indices, Indices]:
 
     Rows are sorted by one number each; those that disagree with the first of theirs are classes of their own.
     """
-    key = values @ _without_pattern(values.shape[1])
+    key = values @ np.cos(np.arange(values.shape[1]) ** 2 + 1.0)  # numbers without a pattern
     size = np.sqrt(values.shape[1] * np.einsum("kd,kd->k", values, values))
     order = np.argsort(key, kind="stable")
     apart = (within * values.shape[1] + 4.0 * np.finfo(float).eps * size)[order[1:]]

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, Indices, equal_rows
+from limitblocks.arrays import Array, Indices
+from limitblocks.problem.plane.rounding import classes
 
 ROUNDING = 1e-10  # of rows of unit length
-DECIMALS = 9  # rows that agree to these are judged once
 ENTRIES = 2**20  # of an array of all sums of two rows: sets are judged so many at a time
 
 Flags = npt.NDArray[np.bool_]
@@ -27,14 +27,12 @@ def redundant(rows: Array, present: Flags, flow: Array | None = None) -> Flags:
     there = np.take_along_axis(present, order, axis=1)
     size = np.linalg.norm(own, axis=2, keepdims=True)
     own = np.where(there[..., None], own / np.where(size > 0.0, size, 1.0), 0.0)
-    K, D = len(own), own.shape[2]
+    D = own.shape[2]
     moves = (
         np.zeros((*own.shape[:2], 0)) if flow is None else np.take_along_axis(flow, order[..., None], axis=1)
     )
     moves = np.where(there[..., None], moves, 0.0)
-    kinds = np.concatenate([own.reshape(K, -1), moves.reshape(K, -1), there], axis=1)
-    kinds = np.round(kinds, DECIMALS) + 0.0
-    first, kind = equal_rows(kinds)
+    first, kind = classes(own, moves, there.astype(float))
     constant = np.broadcast_to(np.eye(D)[-1], (len(first), 1, D))
     still = np.zeros((len(first), 1, moves.shape[2]))
     lines, flows = (np.concatenate(both, axis=1) for both in ((own[first], constant), (moves[first], still)))
