@@ -64,12 +64,6 @@ def largest_in_rows(matrix: sparse.csr_array) -> Array:
     return largest
 
 
-def in_columns(matrix: sparse.csr_array, weights: Array) -> Array:
-    """Sums of the sizes of the entries of each column, those of each row times its weight."""
-    sizes = np.abs(matrix.data) * np.repeat(weights, np.diff(matrix.indptr))
-    return np.bincount(matrix.indices, sizes, matrix.shape[1]).astype(np.float64)
-
-
 def in_blocks(matrix: sparse.csr_array, first: Indices, column: Indices, shape: tuple[int, ...]) -> Array:
     """Rows of a matrix as an array of a `shape`: the `first` place of each, -1 for none, and of columns."""
     place, values = np.repeat(first, np.diff(matrix.indptr)), np.zeros(shape)

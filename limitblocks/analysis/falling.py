@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from limitblocks.analysis.programs import falling_program, solved, solvers
+from limitblocks.analysis.programs import answers, falling_program
 from limitblocks.analysis.scales import compatible, scaled
 from limitblocks.arrays import Array
 from limitblocks.evidence.measure import Measure
@@ -56,10 +56,8 @@ def falling(flow: Flow, loads: Array) -> Fall | None:
         known = replace(flow, problem=measured)
         G = known.matrix(np.zeros(measured.C.shape[0]))
         flowing = scaled(replace(measured, F=G))
-        for solver in solvers(bool(problem.cones.second_order)):
-            u, y = solved(falling_program(flowing.problem, acting), solver).values
-            if not (np.isfinite(u).all() and np.isfinite(y).all()):
-                continue
+        for found in answers(falling_program(flowing.problem, acting), problem.cones):
+            u, y = found.values
             y = flowing.multiplier * compatible(flowing, u / flowing.rate, y / flowing.multiplier)
             strains = measured.C @ u + G.T @ y
             surplus = acting @ u - measured.g @ y - LIKELY * _worth(measured, acting, strains)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import cvxpy as cp
@@ -178,6 +178,14 @@ def solved(program: Program, solver: Solver) -> Solution:
     log.info("%s: %s", solver.name, status)
     values = tuple(_number(variable.value, variable.shape) for variable in program.variables)
     return Solution(solver.name, status, values, tuple(map(_dual, program.problem.constraints)))
+
+
+def answers(program: Program, cones: Cones) -> Iterator[Solution]:
+    """Yield what one solver after the other says of the program, where its values are numbers."""
+    for solver in solvers(bool(cones.second_order)):
+        found = solved(program, solver)
+        if all(np.isfinite(value).all() for value in found.values):
+            yield found
 
 
 def _dual(constraint: cp.Constraint) -> Array:

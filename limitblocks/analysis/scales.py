@@ -16,7 +16,7 @@ import numpy as np
 from scipy import sparse
 
 from limitblocks.analysis.definite import solver_of
-from limitblocks.arrays import Array, in_columns
+from limitblocks.arrays import Array
 from limitblocks.evidence.measure import ROUNDING, Measure
 from limitblocks.problem import Cones, LimitProblem, State, in_units, power_of_two
 
@@ -166,7 +166,7 @@ def with_rates_near_one(problem: LimitProblem) -> Scaled:
 def frictional(problem: LimitProblem) -> Array:
     """Return the friction where it limits a stress that has no part in N, M1, M2, and is below one; (s,)."""
     pressing = np.tile([0.0, 0.0, 1.0, 1.0, 1.0, 0.0], len(problem.interfaces))
-    tangential = in_columns(problem.resultants, pressing) == 0.0
+    tangential = abs(problem.resultants).T @ pressing == 0.0
     friction = unit(np.clip(problem.friction, ROUNDING, 1.0))
     tangential &= (problem.friction > 0.0)[problem.stress_interface]  # not that of dowels and guides
     return np.where(tangential, friction[problem.stress_interface], 1.0)

@@ -17,9 +17,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
-from limitblocks.analysis.carried_over import carried_over
 from limitblocks.analysis.one_thread import one_thread
-from limitblocks.analysis.shape import Field, moved
+from limitblocks.analysis.shape import Field, carried_over, moved
 from limitblocks.analysis.unique import Yielding
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import refuse_kind

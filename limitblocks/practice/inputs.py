@@ -11,7 +11,7 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.evidence.check import check_mcp
 from limitblocks.evidence.claim import Claim
-from limitblocks.evidence.mechanisms import change_of_mechanism
+from limitblocks.evidence.mechanism import change_of_mechanism
 from limitblocks.joints import Tie
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import AddedMass, Fill, MassProportional

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices, in_columns, read_only, tied
+from limitblocks.arrays import Array, Indices, read_only, tied
 from limitblocks.problem.cones import Cones
 
 
@@ -187,7 +187,7 @@ class LimitProblem:
     def stress_units(self) -> Array:
         """Units of the generalised stresses, N or N m, shape (s,)."""
         forces, k = np.tile([1.0, 1.0, 1.0, 0.0, 0.0, 0.0], len(self.interfaces)), self.stress_interface
-        length = np.where(in_columns(self.resultants, forces) > 0.0, 1.0, self.units.interface_length[k])
+        length = np.where(abs(self.resultants).T @ forces > 0.0, 1.0, self.units.interface_length[k])
         return np.asarray(self.units.interface_force[k] * length)
 
     @cached_property

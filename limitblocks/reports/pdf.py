@@ -42,7 +42,7 @@ def pdf(document: Document) -> bytes:
         from reportlab.platypus import SimpleDocTemplate
     except ImportError:
         raise missing("reportlab", "a PDF") from None
-    from limitblocks.reports.pdf_pages import numbered
+    from limitblocks.reports.pdf_drawing import numbered
 
     stream = BytesIO()
     sides = dict.fromkeys(("leftMargin", "rightMargin", "topMargin", "bottomMargin"), _MARGIN)

@@ -10,7 +10,7 @@ from scipy import sparse
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.arrays import equal_rows, in_columns, same_rows
+from limitblocks.arrays import equal_rows, same_rows
 from limitblocks.evidence.reach import Kinematic, Static
 from limitblocks.evidence.rounding import Products, products, scalar_product
 from limitblocks.evidence.spanning_tree import spanning_tree
@@ -188,12 +188,6 @@ def test_interfaces_share_an_inverse_where_their_numbers_are_the_same(model):
             blocks = [F[own][:, its].T.toarray() for own, its in zip(rows, columns, strict=True)]
             same = np.array([[(a == b).all() for b in blocks] for a in blocks])
             np.testing.assert_array_equal(same, kind[:, None] == kind)
-
-
-def test_sizes_in_columns_are_summed_by_the_weights_of_their_rows():
-    A, weights = scattered(9, 5), np.abs(scattered(9))
-    found = in_columns(sparse.csr_array(A), weights)
-    np.testing.assert_allclose(found, np.abs(A).T @ weights, rtol=1e-14)
 
 
 def test_what_is_made_up_is_bounded(model):

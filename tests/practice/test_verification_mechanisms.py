@@ -8,9 +8,8 @@ import pytest
 from facades import ARM, FC, FLOOR, OWN, SITE, G, H, T
 
 import limitblocks as lb
-from limitblocks.evidence import mechanisms
-from limitblocks.evidence.mechanism import find_mechanism
-from limitblocks.evidence.mechanisms import change_of_mechanism
+from limitblocks.evidence import mechanism
+from limitblocks.evidence.mechanism import change_of_mechanism, find_mechanism
 from limitblocks.practice import capacity_curve, uplift, verification
 from limitblocks.problem import Flow, State
 
@@ -111,13 +110,13 @@ def test_a_mechanism_that_is_the_only_one_has_no_such_remark():
 @pytest.mark.parametrize(("fail", "said"), [(0, False), (1, False), (2, True)])
 def test_what_one_method_leaves_open_is_decided_by_the_other(monkeypatch, fail, said):
     """As it is, the first leaves vaults open, where rounding has it so; where both do, a remark says so."""
-    solve = mechanisms.linear_program
-    failing = [method for method, _ in mechanisms.WAYS[:fail]]
+    solve = mechanism.linear_program
+    failing = [method for method, _ in mechanism.WAYS[:fail]]
 
     def tried(*args, **settings):
         return SimpleNamespace(status=4) if settings["method"] in failing else solve(*args, **settings)
 
-    monkeypatch.setattr(mechanisms, "linear_program", tried)
+    monkeypatch.setattr(mechanism, "linear_program", tried)
     arch = lb.structures.arch(lb.PointContact(0.6), radius=5.0, thickness=1.0, voussoirs=21)
     remarks = verification(arch, lb.nonassociated(arch), SITE, q=2.0).remarks
     assert any("may be one of many (not found)" in one for one in remarks) is said

@@ -69,16 +69,6 @@ def test_sliding():
     assert threshold.value == pytest.approx(max(PUSH / (mu * GAMMA * H), np.sqrt(PUSH / GAMMA)), abs=1e-5)
 
 
-def test_least_thickness_of_a_semicircular_arch():
-    """27 voussoirs, friction 0.5: t/R between 0.1067 and 0.1068 (as in the validation of arches)."""
-
-    def arch(thickness):
-        return lb.structures.arch(lb.PointContact(0.5), radius=10.0, thickness=thickness, voussoirs=27)
-
-    threshold = studies.minimum(arch, 0.9, 1.3, parameter="thickness")
-    assert 1.067 <= threshold.value <= 1.068
-
-
 def test_margin_of_a_pushed_wall():
     """Low friction: V <= mu N decides."""
     mu = 0.3

@@ -110,15 +110,6 @@ def elliptical_half(thickness, *, a, b, cuts=4001):
     return *ends, weight, cumulative_simpson(arm, x=angle, initial=0)
 
 
-def lune_half(thickness, *, radius=1.0, embrace=np.pi, cuts=4001):
-    """A lune of a spherical dome, for the angle one between its meridian planes."""
-    inner, outer, *_ = circular_half(thickness, radius=radius, embrace=embrace, cuts=cuts)
-    angle, t = np.linspace(0.0, embrace / 2, cuts), thickness
-    weight = t * (radius**2 + t**2 / 12) * (1 - np.cos(angle))
-    moment = t * (radius**3 + radius * t**2 / 4) * (angle / 2 - np.sin(2 * angle) / 4)
-    return inner, outer, weight, moment
-
-
 def least_thickness_of_thrust_lines(half, low, high):
     """Return the thickness between `low` and `high` at which half(thickness) just holds a thrust line."""
     return brentq(lambda thickness: thrust_line_margin(*half(thickness)), low, high, xtol=1e-9)

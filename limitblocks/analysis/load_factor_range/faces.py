@@ -8,14 +8,14 @@ greatest load factor of a mechanism are one convex program each, and every value
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import cvxpy as cp
 import numpy as np
 
 from limitblocks.analysis.polish import defect, polish
-from limitblocks.analysis.programs import Program, solved, solvers
+from limitblocks.analysis.programs import Program, answers, solved, solvers
 from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Cones, Flow, LimitProblem, State
@@ -132,18 +132,11 @@ def proven(
     flow: Flow, program: Program, state_of: Callable[..., tuple[float, Array, Array, Array]]
 ) -> State | None:
     """Return the first solver's solution that passes the residuals, polished if it has to be, or None."""
-    for values in _solutions(flow.problem, program):
-        a, x, u, y = state_of(*values)
+    for found in answers(program, flow.problem.cones):
+        a, x, u, y = state_of(*found.values)
         state = State(float(a), x, u, y)
         if defect(flow, state) > TOLERANCE:
             state = polish(flow, state)
         if defect(flow, state) <= TOLERANCE:
             return state
     return None
-
-
-def _solutions(problem: LimitProblem, program: Program) -> Iterator[tuple[Array, ...]]:
-    for solver in solvers(bool(problem.cones.second_order)):
-        values = solved(program, solver).values
-        if all(np.isfinite(value).all() for value in values):
-            yield values

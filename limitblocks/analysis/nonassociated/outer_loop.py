@@ -29,7 +29,7 @@ import numpy as np
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, fixed_point
 from limitblocks.analysis.nonassociated.path_record import FROZEN, INTERRUPTED
 from limitblocks.analysis.polish import polish
-from limitblocks.analysis.programs import Program, in_cone, solved, solvers
+from limitblocks.analysis.programs import Program, answers, in_cone
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.evidence.results import Iteration
@@ -86,10 +86,9 @@ def frozen_limit(flow: Flow, x: Array, rotation: float, cohesion: float) -> Stat
     follows = p.C @ u + (G - rotation * lost).T @ y == 0
     constraints = [follows, p.live @ u == 1, *in_cone(y, p.cones)]
     program = Program(cp.Problem(cp.Minimize(h @ y - p.dead @ u), constraints), (u, y))
-    for solver in solvers(bool(p.cones.second_order)):
-        solution = solved(program, solver)
-        (u, y), stresses = solution.values, solution.duals[0]
-        if all(np.isfinite(part).all() for part in (u, y, stresses)):
+    for found in answers(program, p.cones):
+        (u, y), stresses = found.values, found.duals[0]
+        if np.isfinite(stresses).all():
             return State(float(h @ y - p.dead @ u), stresses, u, y)
     return None
 

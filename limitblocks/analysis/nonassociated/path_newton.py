@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import linalg
 
 from limitblocks.analysis.nonassociated.path_equations import Equations, Path, Point
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, tied
 from limitblocks.problem.barrier import slope
 
 # Of what a pivot was, where rounding left nothing of it: else a facade of 160 (friction .4, out) stalls.
@@ -168,7 +168,5 @@ def sign_of(lu: linalg.SuperLU) -> float:
 def _parity(permutation: Indices) -> float:
     """1 for an even permutation, -1 for an odd one: a cycle of k places takes k - 1 exchanges."""
     n = len(permutation)
-    least, ahead = np.arange(n), permutation
-    for _ in range(n.bit_length()):  # least place of each cycle, by jumps twice as long each time
-        least, ahead = np.minimum(least, least[ahead]), ahead[ahead]
-    return -1.0 if (n - np.count_nonzero(least == np.arange(n))) % 2 else 1.0
+    cycles = int(tied(np.column_stack([np.arange(n), permutation]), n).max(initial=-1)) + 1
+    return -1.0 if (n - cycles) % 2 else 1.0

@@ -112,7 +112,7 @@ class Planar:
         Only then elastic strains of symmetric stresses are symmetric, too.
         """
         S = self.stresses
-        own = squares(S, weights)
+        own = S.power(2).T @ weights
         off = sparse.diags_array(weights) @ S - S @ sparse.diags_array(own / self._lengths)
         return None if abs(off).max() > EXACT * weights.max() else own
 
@@ -144,15 +144,7 @@ class Planar:
         return np.asarray(linalg.splu(sparse.csc_array(M.T @ M)).solve(M.T @ y) / self.live)
 
 
-def squares(matrix: sparse.csr_array, weights: Array | None = None) -> Array:
-    """Return the sums of the squares of the entries of each column, those of each row times its weight."""
-    entries = matrix.data**2
-    if weights is not None:
-        entries *= np.repeat(weights, np.diff(matrix.indptr))
-    return np.bincount(matrix.indices, entries, matrix.shape[1]).astype(np.float64, copy=False)
-
-
 def _lengths(matrix: sparse.csr_array) -> Array:
     """Squared lengths of the columns, one for nothing."""
-    found = squares(matrix)
+    found = matrix.power(2).sum(axis=0)
     return np.where(found > 0.0, found, 1.0)

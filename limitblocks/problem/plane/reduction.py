@@ -18,7 +18,7 @@ from limitblocks.arrays import Array, Indices, equal_rows, largest_in_rows, read
 from limitblocks.problem.cones import Cones
 from limitblocks.problem.limit_problem import LimitProblem, in_units
 from limitblocks.problem.plane.mirror import Mirror, Mirrored
-from limitblocks.problem.plane.planar import Planar, squares
+from limitblocks.problem.plane.planar import Planar
 from limitblocks.problem.plane.rounding import EXACT
 from limitblocks.problem.plane.rows import Choice, PlaneRows, plane_rows
 
@@ -61,7 +61,7 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
         pivot=read_only(np.zeros(len(source))),
         half_sides=problem.half_sides[kept],
         resultants=B if len(six) == B.shape[0] else B[six],
-        compliance=read_only(squares(stresses, problem.compliance)),
+        compliance=read_only(stresses.power(2).T @ problem.compliance),
         ends=_ends(problem.ends[kept], mirror.image, blocks),
         row_interface=interface,
         row_mode=problem.row_mode[source],
