@@ -92,8 +92,7 @@ def clean(points: Array, owner: Indices, tolerance: Array) -> tuple[Array, Indic
     while True:
         before, after = _neighbours(owner)
         chord, arm = points[after] - points[before], points - points[before]
-        cross = np.abs(chord[:, 0] * arm[:, 1] - chord[:, 1] * arm[:, 0])
-        distance = cross / np.maximum(np.hypot(chord[:, 0], chord[:, 1]), np.finfo(float).tiny)
+        distance = np.abs(cross(chord, arm)) / np.maximum(np.hypot(*chord.T), np.finfo(float).tiny)
         # never two neighbours at once: a corner beside its near-duplicate must stay
         drop = (distance <= distance[before]) & (distance < distance[after]) & (distance <= tolerance[owner])
         if not drop.any():

@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, sums
 from limitblocks.geometry.coplanar import area_vectors, warp_of
 from limitblocks.geometry.polyhedron import Faces
 
@@ -103,8 +103,6 @@ def fitted(points: Array, loops: Faces, tolerance: float) -> Array | None:
 
 def _steps(corner: Indices, normal: Array, off: Array, n: int) -> Array:
     """Return the smallest steps (n, 3) that bring corners, each `off` along the `normal` of a face, there."""
-    square = np.zeros((n, 3, 3))
-    right = np.zeros((n, 3))
-    np.add.at(square, corner, normal[:, :, None] * normal[:, None])
-    np.add.at(right, corner, off[:, None] * normal)
+    square = sums(corner, (normal[:, :, None] * normal[:, None]).reshape(-1, 9), n).reshape(-1, 3, 3)
+    right = sums(corner, off[:, None] * normal, n)
     return np.asarray(np.einsum("nij,nj->ni", np.linalg.pinv(square, rcond=1e-3, hermitian=True), right))

@@ -1,4 +1,4 @@
-"""One tracked path: closed forms, published walls, a fold, and a case for each further means."""
+"""One tracked path: a fold, and a case for each further means."""
 
 from dataclasses import replace
 from functools import partial
@@ -23,32 +23,9 @@ from limitblocks.analysis.nonassociated.tracking import track
 from limitblocks.analysis.polish import defect, polish
 from limitblocks.evidence import backward_error
 
-# Ferris & Tin-Loi (2001), non-associated: the reference and another code; not unique, so 1 % about the two
-FERRIS_TIN_LOI = {1: (0.640, 0.641), 2: (0.563, 0.564), 3: (0.356, 0.358), 4: (0.264, 0.264)}
-
 
 def load_factor(model, state):
     return model.problem.in_si(state).load_factor
-
-
-@pytest.mark.parametrize("joint", [lb.OrdunaLourenco, lb.PointContact])
-@pytest.mark.parametrize(("friction", "width"), [(0.4, 1.0), (0.7, 0.3)])
-def test_a_block_slides_or_rocks_at_its_closed_form(joint, friction, width):
-    model = structures.block(joint(friction), width=width, height=1.0)
-    state, path = track(*start(model))
-    assert path.closed
-    assert path.residual <= 1e-10
-    assert load_factor(model, state) == pytest.approx(min(friction, width), rel=1e-9)
-
-
-@pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.65), lb.PointContact(0.65)], ids=repr)
-@pytest.mark.parametrize("number", FERRIS_TIN_LOI)
-def test_ferris_and_tin_loi_walls(number, joint):
-    model = structures.ferris_tin_loi_wall(number, joint)
-    state, path = track(*start(model))
-    assert path.residual <= 1e-8
-    least, most = FERRIS_TIN_LOI[number]
-    assert 0.99 * least <= load_factor(model, state) <= 1.01 * most
 
 
 def pushed(name, joint, direction):

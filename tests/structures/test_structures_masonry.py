@@ -24,14 +24,6 @@ def load_factor(model):
     return result.lower
 
 
-def test_leaves_without_headers_rock_one_by_one():
-    """b / H each; in one piece 2 b / H."""
-    b, height = 0.15, 1.2
-    assert load_factor(leaves()) == pytest.approx(b / height, rel=1e-6)
-    whole = structures.wall(JOINT, length=1.6, courses=6, thickness=2 * b, direction=OUT)
-    assert load_factor(whole) == pytest.approx(2 * b / height, rel=1e-6)
-
-
 def test_headers_tie_the_leaves():
     """From the leaves by themselves towards one piece, the closer the headers the stronger."""
     b, height = 0.15, 1.2

@@ -37,32 +37,14 @@ def groove(joint, half_angle, load_factor):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("friction", [0.1, 0.4, 0.8])
-@pytest.mark.parametrize("degrees", [20, 35, 50, 65, 80])
-def test_wedge_in_a_groove_without_dilatancy(kind, friction, degrees):
-    half_angle = np.radians(degrees)
-    expected = friction / np.sin(half_angle)
-    model = groove(kind(friction), half_angle, expected)
-    assert lb.nonassociated(model).load_factor == pytest.approx(expected, rel=CLOSE)
+@pytest.mark.parametrize(("degrees", "friction"), [(20, 0.4), (20, 0.8), (35, 0.8)])
+def test_wedge_with_dilatancy_is_stuck_in_a_steep_groove(kind, degrees, friction):
+    with pytest.raises(lb.errors.UnlimitedLoad):
+        lb.bounds(groove(kind(friction), np.radians(degrees), 10.0))
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("friction", [0.1, 0.4, 0.8])
-@pytest.mark.parametrize("degrees", [20, 35, 50, 65, 80])
-def test_wedge_in_a_groove_associated(kind, friction, degrees):
-    half_angle = np.radians(degrees)
-    if np.tan(half_angle) <= friction:
-        with pytest.raises(lb.errors.UnlimitedLoad):
-            lb.bounds(groove(kind(friction), half_angle, 10.0))
-        return
-    expected = friction / np.sqrt(np.sin(half_angle) ** 2 - (friction * np.cos(half_angle)) ** 2)
-    bounds = lb.bounds(groove(kind(friction), half_angle, expected))
-    assert bounds.lower == pytest.approx(expected, rel=1e-6)
-    assert bounds.upper == pytest.approx(expected, rel=1e-6)
-
-
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("share", [0.3, 0.7])
+@pytest.mark.parametrize("share", [0.0, 0.3, 0.7])
 @pytest.mark.parametrize(("degrees", "friction"), [(30, 0.3), (30, 0.6), (50, 0.6), (70, 0.4)])
 def test_wedge_in_a_groove_with_some_dilatancy(kind, share, degrees, friction):
     sin, cos = np.sin(np.radians(degrees)), np.cos(np.radians(degrees))

@@ -8,10 +8,7 @@ from typing import Literal
 import numpy as np
 
 from limitblocks.analysis.nonassociated.finished import finished, tell_end
-from limitblocks.analysis.nonassociated.in_the_plane import (
-    by_self_stress,
-    flow_in_plane,
-)
+from limitblocks.analysis.nonassociated.in_the_plane import by_self_stress, flow_in_plane
 from limitblocks.analysis.nonassociated.loaded import AT_ONCE, Loaded, at_once, lifted, loaded
 from limitblocks.analysis.nonassociated.loading import CLIMBS, Pushed
 from limitblocks.analysis.nonassociated.loop import end_of_first_path
@@ -26,18 +23,17 @@ from limitblocks.analysis.nonassociated.start import (
     refuse_unlimited,
     start_stresses,
 )
-from limitblocks.analysis.nonassociated.stiffness import Stiffness, compliance_of, displacement_units
 from limitblocks.analysis.one_thread import one_thread
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, real
 from limitblocks.errors import ModelError, UnlimitedLoad, refuse_kind
 from limitblocks.evidence.ending import Status
 from limitblocks.evidence.load_path_result import LoadPath, compared
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Iteration
-from limitblocks.joints.base import Joint
+from limitblocks.joints.base import Joint, joint_of
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
-from limitblocks.problem import Flow, Turning
+from limitblocks.problem import Flow, LimitProblem, Turning
 from limitblocks.problem.plane import Choice
 
 ROUNDED = (
@@ -53,6 +49,7 @@ NOT_COMPARED = "the tracked path of nonassociated was stopped by the user: nothi
 NO_END = "the user stopped this path: no end of it to compare with that of the tracked path of nonassociated"
 
 Snaps = Literal["across", "along"]
+Stiffness = tuple[float, float]  # normal and shear, N/m3
 
 
 @one_thread
@@ -119,7 +116,7 @@ def load_path(
     problem = flow.problem
     refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)
-    compliance = compliance_of(model, problem, stiffness)
+    compliance = _compliance_of(model, problem, stiffness)
     softness = float(np.mean(compliance) / np.mean(problem.compliance))
     weights = compliance / softness  # the size of the steps must not depend on the size of the stiffness
     history, record = recorder(progress)
@@ -151,7 +148,7 @@ def load_path(
         why=found.why,
         said=said,
     )
-    told_by = Told(softness * displacement_units(model, problem), snaps)
+    told_by = Told(softness * _displacement_units(model, problem), snaps)
     steps, folds, trace = told(model, flow, found.x0, found.pushes, found.last, told_by)
     remarks = (
         *_of_snaps(found.pushes, steps[0].load_factor, problem.units.live),
@@ -185,3 +182,48 @@ def _of_snaps(pushes: tuple[Pushed, ...], begin: float, unit: float) -> Iterator
     if falls:
         before, after = max(falls, key=lambda fall: fall[0] - fall[1])
         yield PASSED_OVER.format(before / unit, after / unit)
+
+
+def _compliance_of(
+    model: Model, problem: LimitProblem, stiffness: Stiffness | Mapping[Joint, Stiffness] | None
+) -> Array:
+    """Dimensionless compliance of each generalised stress."""
+    if stiffness is None:
+        free = model.free_blocks
+        weight = np.mean([b.volume * (b.unit_weight or 0.0) for b in free]) or np.mean(
+            model.problem.units.block_force
+        )
+        unit = weight / np.mean([np.cbrt(b.volume) for b in free]) ** 3
+        stiffness = (float(unit), float(unit))
+    table = (
+        stiffness if isinstance(stiffness, Mapping) else {joint_of(i): stiffness for i in model.interfaces}
+    )
+    pairs = []
+    for interface in model.interfaces:
+        pair = table.get(joint_of(interface))
+        if pair is None or np.shape(pair) != (2,) or not all(0.0 < real(k) < np.inf for k in pair):
+            raise ModelError(
+                f"stiffness of {interface.joint!r} is {pair!r}, "
+                "expected (normal, shear) in N/m3, both positive"
+            )
+        pairs.append(pair)
+    force, length = _means(model.problem)
+    unit = force / length**3
+    normal, shear = np.array(pairs).T / unit
+    per_resultant = np.stack([shear, shear, normal, normal, normal, shear], axis=1).ravel()
+    B = abs(problem.resultants).tocoo()
+    rows, columns = B.coords
+    own = np.full(B.shape[1], -1)
+    order = np.argsort(rows, kind="stable")[::-1]
+    own[columns[order]] = rows[order]  # the first resultant that a stress feeds tells normal from shear
+    return np.asarray(problem.compliance / per_resultant[own])
+
+
+def _means(problem: LimitProblem) -> tuple[float, float]:
+    """Mean units of force and length of the interfaces, in which compliances are near one."""
+    return float(problem.units.interface_force.mean()), float(problem.units.interface_length.mean())
+
+
+def _displacement_units(model: Model, problem: LimitProblem) -> Array:
+    """Displacements of the free blocks (6 n,), m and rad, over dimensionless ones, for softness one."""
+    return np.asarray(np.prod(_means(model.problem)) / problem.units.loads)

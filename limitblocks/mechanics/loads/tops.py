@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, sums
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.load import Load, Place, Vector, of, place, triple, vector
@@ -158,9 +158,7 @@ def _on_tops(forces: Array, places: Array, blocks: Sequence[Block]) -> Array:
         raise ModelError(f"a load acts at x = {x:g} m, y = {y:g} m, where there is no free block")
     centroids = np.stack([block.centroid for block in blocks])
     arms = np.column_stack([places, z]) - centroids[owner]
-    load = np.zeros((len(blocks), 6))
-    np.add.at(load, owner, np.concatenate([forces, np.cross(arms, forces)], axis=1))
-    return load
+    return sums(owner, np.concatenate([forces, np.cross(arms, forces)], axis=1), len(blocks))
 
 
 def _crossings(start: Array, along: Array, blocks: Sequence[Block]) -> Array:

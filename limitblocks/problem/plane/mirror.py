@@ -16,8 +16,7 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.known import known
 from limitblocks.problem.limit_problem import LimitProblem
 from limitblocks.problem.plane.alike import alike
-from limitblocks.problem.plane.candidates import candidates
-from limitblocks.problem.plane.images import images
+from limitblocks.problem.plane.candidates import candidates, images
 from limitblocks.problem.plane.places import Place, kinds_of
 from limitblocks.problem.plane.rounding import EXACT, classes, close
 

@@ -1,10 +1,10 @@
-"""Colours of entities and layers of a DXF drawing, and of what is written to one."""
+"""Colours of entities and layers of a DXF drawing."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from limitblocks.io.colours import hex_of, parts_of
+from limitblocks.io.colours import hex_of
 
 _BY_BLOCK, _BY_LAYER, _PLAIN = 0, 256, 7  # of the colour index
 
@@ -30,9 +30,3 @@ def _indexed(index: int) -> str:
     from ezdxf.colors import aci2rgb
 
     return hex_of(*aci2rgb(index)) if 0 < index < _BY_LAYER and index != _PLAIN else ""
-
-
-def true_colour(colour: str) -> int:
-    """Return "#rrggbb" as a true colour of DXF."""
-    red, green, blue = parts_of(colour)
-    return red << 16 | green << 8 | blue

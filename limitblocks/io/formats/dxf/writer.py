@@ -8,7 +8,7 @@ from collections.abc import Container, Iterable, Mapping, Sequence
 from typing import Any
 
 from limitblocks.geometry import Block
-from limitblocks.io.formats.dxf.colours import true_colour
+from limitblocks.io.colours import parts_of
 from limitblocks.io.formats.dxf.part import APPLICATION
 from limitblocks.io.packages import package
 
@@ -33,7 +33,7 @@ def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Contai
         mesh.vertices = block.vertices.tolist()
         mesh.faces = block.faces
         if block.colour:
-            mesh.dxf.true_color = true_colour(block.colour)
+            mesh.rgb = parts_of(block.colour)
         mesh.set_xdata(
             APPLICATION,
             [(1000, " ".join(word.split())[:_LONGEST]) for word in (block.name, block.material) if word],
