@@ -6,7 +6,8 @@ know no report and no file format.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
 from enum import Enum
 from importlib import import_module
@@ -25,6 +26,11 @@ KEYS = {"digest": "model_digest", "limit": "backward_error_limit"}
 def many(number: int, word: str, words: str = "") -> str:
     """Return "1 block" or "2 blocks"; `words` where the plural takes more than an s."""
     return f"{number} {word if number == 1 else words or word + 's'}"
+
+
+def counted(words: Iterable[str]) -> dict[str, int]:
+    """Return how often each word occurs that is not empty, the most frequent first."""
+    return dict(Counter(filter(None, words)).most_common())
 
 
 def rounded_down(ratio: float) -> str:

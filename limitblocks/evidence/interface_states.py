@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -19,7 +18,7 @@ from limitblocks.geometry import Interface
 from limitblocks.joints import Dowel, Guide, Tie
 from limitblocks.model import Model, checked_model, refuse_other
 from limitblocks.problem import LimitProblem, Mode
-from limitblocks.shown import Tabular, many
+from limitblocks.shown import Tabular, counted, many
 
 LOADED = 1e-6  # of the units of an interface: forces and moments below it count as none
 
@@ -111,8 +110,7 @@ class InterfaceStates(Tabular):
         ]
 
     def __str__(self) -> str:
-        counts = Counter(self.state)
-        said = ", ".join(f"{count} {word}" for word, count in counts.most_common())
+        said = ", ".join(f"{count} {word}" for word, count in counted(self.state).items())
         return f"states of {many(len(self.names), 'interface')}: {said}"
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -23,7 +22,7 @@ from limitblocks.io.made import refused
 from limitblocks.io.open_joints import open_joints
 from limitblocks.io.placed import UNITS, Contents, Frame, frame
 from limitblocks.io.supports import LikelySupports, likely_supports
-from limitblocks.shown import Shown, many
+from limitblocks.shown import Shown, counted, many
 
 _FORMATS = {
     ".obj": "Wavefront OBJ",
@@ -209,10 +208,10 @@ def _look(
         kind,
         tuple(map(SeenBlock.of, blocks)),
         wrong,
-        _counted(block.layer for block in blocks),
-        _counted(block.material for block in blocks),
-        _counted(group for block in blocks for group in block.groups),
-        _counted(block.colour for block in blocks),
+        counted(block.layer for block in blocks),
+        counted(block.material for block in blocks),
+        counted(group for block in blocks for group in block.groups),
+        counted(block.colour for block in blocks),
         units,
         up,
         (tuple(corners.min(axis=0).tolist()), tuple(corners.max(axis=0).tolist())),
@@ -223,12 +222,6 @@ def _look(
         (*warnings, *_suspicious(blocks, corners, contacts)),
         notes,
     )
-
-
-def _counted(words: Any) -> dict[str, int]:
-    counts = Counter(words)
-    counts.pop("", None)
-    return dict(counts.most_common())
 
 
 def _suspicious(blocks: Sequence[Block], corners: Any, contacts: Contacts) -> list[str]:

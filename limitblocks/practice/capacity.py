@@ -16,14 +16,7 @@ from limitblocks.joints.base import checked_count
 from limitblocks.mechanics.loads.load import resultant
 from limitblocks.model import Model, checked_model
 from limitblocks.practice import displaced as moving
-from limitblocks.practice.advance import (
-    STILL,
-    control_point,
-    farthest,
-    refuse_left_behind,
-    stopped,
-    velocity,
-)
+from limitblocks.practice.advance import STILL, control_point, farthest, refuse_left_behind, stopped, velocity
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control, to_zero, zero_of
 from limitblocks.practice.displaced import CLOSED, Assembly
 from limitblocks.practice.kept import gathered

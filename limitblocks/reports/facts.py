@@ -14,16 +14,8 @@ from limitblocks.errors import few
 from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import areas
 from limitblocks.model import Model
-from limitblocks.reports.words import (
-    assumed,
-    counted,
-    joint_words,
-    laid_on,
-    load_words,
-    resultant_words,
-    times,
-)
-from limitblocks.shown import coordinate, coordinates, many
+from limitblocks.reports.words import assumed, joint_words, laid_on, load_words, resultant_words, times
+from limitblocks.shown import coordinate, coordinates, counted, many
 
 
 def facts(model: Model) -> dict[str, Any]:
@@ -47,10 +39,10 @@ def facts(model: Model) -> dict[str, Any]:
         "interface_area": float(sum(areas(one.polygon) for one in model.interfaces if not _element(one))),
         "bounding_box": [corners.min(axis=0).tolist(), corners.max(axis=0).tolist()],
         "joints": counted(_joints(model)),
-        "layers": counted(block.layer for block in model.blocks if block.layer),
+        "layers": counted(block.layer for block in model.blocks),
         "materials": _materials(model),
         "groups": counted(group for block in model.blocks for group in block.groups),
-        "colours": counted(block.colour for block in model.blocks if block.colour),
+        "colours": counted(block.colour for block in model.blocks),
         "left_out": list(model.left_out),
         "block_types": counted(_shape(len(block.faces), len(block.vertices)) for block in model.blocks),
         "interface_types": counted(_polygon(len(interface.polygon)) for interface in model.interfaces),
@@ -141,7 +133,7 @@ def _joints(model: Model) -> Iterator[str]:
 
 def _materials(model: Model) -> list[dict[str, Any]]:
     """Return the number of blocks, volume (m3) and unit weights (N/m3) of each material."""
-    names = counted(block.material for block in model.blocks if block.material)
+    names = counted(block.material for block in model.blocks)
     made = {name: [block for block in model.blocks if block.material == name] for name in names}
     return [
         {

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from inspect import getdoc
@@ -123,11 +122,6 @@ def as_acceleration(model: Model, load_factor: float, most: bool = False) -> str
     size = known[0] * load_factor
     most = most if known[0] > 0.0 else not most  # of a number below zero the larger is nearer to zero
     return f"{known[1]} of {cut(size, most=most)} g = {cut(size * gravity, most=most)} m/s²"
-
-
-def counted(words: Iterable[str]) -> dict[str, int]:
-    """Return how often each word occurs, the most frequent first."""
-    return dict(Counter(words).most_common())
 
 
 def together(notes: Iterable[str]) -> list[str]:

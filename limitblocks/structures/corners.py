@@ -11,14 +11,7 @@ from types import MappingProxyType
 from limitblocks.joints import Joint
 from limitblocks.model import Model
 from limitblocks.structures.bond import Bond, Opening, multiple, openings_of, refuse_wall
-from limitblocks.structures.build import (
-    HORIZONTAL,
-    UNIT_WEIGHT,
-    base,
-    model_of,
-    plain_numbers,
-    refuse,
-)
+from limitblocks.structures.build import HORIZONTAL, UNIT_WEIGHT, base, model_of, plain_numbers, refuse
 
 FACADE_OPENINGS = (Opening(1.2, 0.0, 1.2, 2.4), Opening(4.0, 1.2, 1.2, 1.2))
 

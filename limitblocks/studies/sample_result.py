@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -11,7 +10,7 @@ import numpy as np
 
 from limitblocks.arrays import Array, real, reals
 from limitblocks.errors import ModelError, SolveError
-from limitblocks.shown import many
+from limitblocks.shown import counted, many
 from limitblocks.studies.results import FLOWS, unanswered
 from limitblocks.studies.rows import Rows
 
@@ -108,9 +107,8 @@ class SampledStudy(Rows):
 
     def mode_frequencies(self) -> dict[str, float]:
         """Return the share of each mode among the independent samples that have one, most frequent first."""
-        counted = Counter(mode for mode in self.modes[: self.samples] if mode)
-        total = sum(counted.values())
-        return {mode: count / total for mode, count in counted.most_common()}
+        counts = counted(self.modes[: self.samples])
+        return {mode: count / sum(counts.values()) for mode, count in counts.items()}
 
     def sobol(self) -> dict[str, tuple[float, float]]:
         """Return first-order and total Sobol index of each parameter (Saltelli et al. 2010; scipy.stats).
@@ -169,10 +167,8 @@ class SampledStudy(Rows):
     @property
     def _remarked(self) -> str:
         """How many answers have a remark, and the most frequent one."""
-        counted = Counter(one for one in self.remarks if one)
-        if not counted:
-            return ""
-        return f"; {counted.total()} with remarks, such as: {counted.most_common(1)[0][0]}"
+        counts = counted(self.remarks)
+        return f"; {sum(counts.values())} with remarks, such as: {next(iter(counts))}" if counts else ""
 
     @property
     def _left_out(self) -> str:

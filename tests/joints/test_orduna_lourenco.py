@@ -2,19 +2,7 @@
 
 import numpy as np
 import pytest
-from rectangles import (
-    AREA,
-    COMPRESSION,
-    L1,
-    L2,
-    MU,
-    PAPER,
-    RECTANGLE,
-    SLIPS,
-    N,
-    states,
-    yield_functions,
-)
+from rectangles import AREA, COMPRESSION, L1, L2, MU, PAPER, RECTANGLE, SLIPS, N, states, yield_functions
 
 import limitblocks as lb
 from limitblocks.geometry.polygon import along_longest_side, areas, centroids

@@ -8,14 +8,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 from prisms import DOCS, prism, pushed
-from rectangles import (
-    AREA,
-    L1,
-    L2,
-    MU,
-    PAPER,
-    RECTANGLE,
-)
+from rectangles import AREA, L1, L2, MU, PAPER, RECTANGLE
 from scipy.optimize import brentq
 
 import limitblocks as lb

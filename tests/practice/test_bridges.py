@@ -11,15 +11,7 @@ from stones import model_of
 import limitblocks as lb
 from limitblocks.geometry.polygon import areas
 from limitblocks.loads import top_force
-from limitblocks.practice import (
-    Deck,
-    Vehicle,
-    passive_fill,
-    reinforced,
-    tie,
-    vehicle_load,
-    worst_position,
-)
+from limitblocks.practice import Deck, Vehicle, passive_fill, reinforced, tie, vehicle_load, worst_position
 from limitblocks.practice.envelope import line_of
 from limitblocks.structures import Fill, arch_bridge
 

@@ -9,12 +9,7 @@ from scipy.optimize import brentq
 from stones import model_of
 
 import limitblocks as lb
-from limitblocks.practice import (
-    capacity_curve,
-    reinforced,
-    tie,
-    touching,
-)
+from limitblocks.practice import capacity_curve, reinforced, tie, touching
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 B, H = 0.2, 1.0

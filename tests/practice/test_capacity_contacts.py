@@ -10,14 +10,7 @@ from stones import model_of
 import limitblocks as lb
 from limitblocks.arrays import read_only
 from limitblocks.errors import NoEquilibrium
-from limitblocks.practice import (
-    CapacityCurve,
-    CapacityPoint,
-    Control,
-    capacity,
-    capacity_curve,
-    touching,
-)
+from limitblocks.practice import CapacityCurve, CapacityPoint, Control, capacity, capacity_curve, touching
 from limitblocks.practice.advance import advanced, moved_until_contact
 from limitblocks.practice.displaced import assembly_of, moved
 from limitblocks.practice.rejoined import closed_up

@@ -10,15 +10,7 @@ from scipy.spatial.transform import Rotation
 
 import limitblocks as lb
 from limitblocks.loads import added_mass
-from limitblocks.practice import (
-    PartialFactors,
-    adequacy,
-    capacity_curve,
-    dowel,
-    reinforced,
-    strip,
-    tie,
-)
+from limitblocks.practice import PartialFactors, adequacy, capacity_curve, dowel, reinforced, strip, tie
 from limitblocks.practice.carried_loads import carried_load
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]

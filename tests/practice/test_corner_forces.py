@@ -6,15 +6,7 @@ from corner_forces import CornerForces
 from stones import model_of
 
 import limitblocks as lb
-from limitblocks.practice import (
-    PartialFactors,
-    adequacy,
-    dowel,
-    least_masses,
-    least_ties,
-    reinforced,
-    tie,
-)
+from limitblocks.practice import PartialFactors, adequacy, dowel, least_masses, least_ties, reinforced, tie
 
 PUSH = (1.0, 0.4, 0.0)
 

@@ -13,13 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from limitblocks.analysis.nonassociated.increment import (
-    NO_BARRIER,
-    Increment,
-    Tried,
-    faded,
-    increment,
-)
+from limitblocks.analysis.nonassociated.increment import NO_BARRIER, Increment, Tried, faded, increment
 from limitblocks.analysis.nonassociated.path import DEGENERATE
 from limitblocks.analysis.nonassociated.path_equations import Barrier, Path
 from limitblocks.analysis.nonassociated.path_measures import by_units

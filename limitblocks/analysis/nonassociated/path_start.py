@@ -8,14 +8,7 @@ from hashlib import blake2b
 
 import numpy as np
 
-from limitblocks.analysis.nonassociated.path_equations import (
-    Barrier,
-    Path,
-    Point,
-    distance,
-    moved,
-    residuals,
-)
+from limitblocks.analysis.nonassociated.path_equations import Barrier, Path, Point, distance, moved, residuals
 from limitblocks.analysis.nonassociated.path_layout import Layout
 from limitblocks.analysis.nonassociated.path_measures import Measures, by_compliance
 from limitblocks.analysis.nonassociated.path_newton import Newton
