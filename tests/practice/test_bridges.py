@@ -11,7 +11,7 @@ from stones import model_of
 import limitblocks as lb
 from limitblocks.geometry.polygon import areas
 from limitblocks.loads import top_force
-from limitblocks.practice import Deck, Vehicle, passive_fill, reinforced, tie, vehicle_load, worst_position
+from limitblocks.practice import Deck, Vehicle, passive_fill, reinforced, vehicle_load, worst_position
 from limitblocks.practice.envelope import line_of
 from limitblocks.structures import Fill, arch_bridge
 
@@ -48,32 +48,6 @@ def test_another_program_has_the_same_load_factor(shape, loaded):
     found = lb.bounds(model)
     assert found.proven
     assert found.upper == pytest.approx(load_factor(own, at, loaded), rel=1e-6)
-
-
-def rod(own, k, force, prestress=0.0):
-    """A tie at the level of voussoir k + 1 to the one opposite, in both programs."""
-    left = (own.point(0, 0, k) + own.point(0, 1, k + 1)) / 2
-    x, z = left
-    ours = tie(
-        f"span 1 voussoir {k + 1}",
-        (x, 0, z),
-        f"span 1 voussoir {15 - k}",
-        (-x, 0, z),
-        area=1e-4,
-        strength=force / 1e-4,
-        prestress=prestress,
-    )
-    return ours, (left, (1.0, 0.0), (prestress, force), (0, 0, k), (0, 0, 14 - k))
-
-
-@pytest.mark.parametrize("prestress", [0.0, 8e3])
-def test_another_program_with_a_tie(prestress):
-    """A tie across the haunches, 20 kN at most, from voussoir 3 to voussoir 13 at the level of the first."""
-    own, model = Bridge(), bridge()
-    ours, pull = rod(own, 2, 20e3, prestress)
-    tied = lb.bounds(reinforced(model, ours))
-    assert tied.upper == pytest.approx(load_factor(own, -0.75, pulls=[pull]), rel=1e-6)
-    assert tied.upper > 1.1 * lb.bounds(model).upper
 
 
 def test_another_program_with_passive_fill():
@@ -125,15 +99,6 @@ def test_passive_fill_of_faces_askew_and_on_both_sides():
         assert own.axes[2] == pytest.approx(-np.sign(area) * d, abs=1e-12)
         off = own.centroid - at
         assert off - off @ d * d == pytest.approx(np.zeros(3), abs=1e-12)
-
-
-def test_bonded_rings_are_one_ring():
-    """A strong bond makes one ring of them; dry ones carry less, the smoother the less."""
-    whole = lb.bounds(bridge()).upper
-    bonded = lb.bounds(bridge(rings=2, ring_joint=STRONG)).upper
-    assert bonded == pytest.approx(whole, rel=1e-6)
-    dry = [lb.bounds(bridge(rings=2, ring_joint=lb.PointContact(mu))).upper for mu in (0.6, 0.3, 0.0)]
-    assert np.all(np.diff([whole, *dry]) < -0.04 * whole)
 
 
 def test_bond_is_needed_where_it_is():

@@ -161,17 +161,6 @@ def test_what_stretches_or_carries_nothing_locks_nothing():
         ]
 
 
-def test_dowel_adds_shear():
-    """A block that slides at mu; a dowel adds its capacity, with or without dilatancy."""
-    model = lb.structures.block(lb.PointContact(0.3), width=1.0, height=0.5)
-    (joint,), weight = model.interfaces, model.free_blocks[0].weight
-    held = reinforced(model, dowel(joint, joint.centroid, diameter=0.02, capacity=0.05 * weight))
-    assert lb.bounds(held).upper == pytest.approx(0.35, rel=1e-8)
-    result = lb.nonassociated(held)
-    assert result.load_factor == pytest.approx(0.35, rel=1e-8)
-    assert lb.interface_states(held, result).state == ("slide", "yield")
-
-
 @every_joint
 def test_more_tie_is_never_weaker(joint):
     factors = [lb.bounds(reinforced(facade(joint), rod(force))).upper for force in (1.0, 1e3, 4e3, 3e4)]
@@ -203,16 +192,6 @@ def test_shear_of_a_dowel_is_measured_as_any_force():
     held = reinforced(model, dowel(joint, joint.centroid, diameter=0.02, capacity=1e3))
     corners = [0.25, 0.25, 1.0] * 4
     assert frictional(held.problem).tolist() == [*corners, 1.0, 1.0]
-
-
-def test_two_ties_in_parallel_and_number_of():
-    """Two ties side by side carry what one of twice the force carries; each is listed by itself."""
-    pair = [rod(4e3), rod(4e3)]
-    result = lb.nonassociated(reinforced(facade(), *pair))
-    assert result.load_factor == pytest.approx(rocking(8e3, 4.5), rel=1e-8)
-    assert result.stress_resultants[1:, 2] == pytest.approx([4e3, 4e3], rel=1e-6)
-    one = rod(np.inf, area=4e3 / 235e6 / 3, number_of=3)
-    assert lb.bounds(reinforced(facade(), one)).upper == pytest.approx(rocking(4e3, 4.5), rel=1e-8)
 
 
 def test_prestress_takes_from_what_a_tie_can_take():

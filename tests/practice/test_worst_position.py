@@ -26,14 +26,6 @@ def beam():
     return facades.beam(JOINT)
 
 
-def test_worst_position_is_the_end_of_the_overhang():
-    """The overhang tips about x = 3: P (x - 3) = W (3 - 2)."""
-    model, vehicle, deck = beam(), Vehicle((10e3,), contact=1e-3), Deck(level=0.5)
-    found = worst_position(model, vehicle, deck, (3.2, 3.95), positions=4)
-    assert found.position == pytest.approx(3.95, abs=1e-3)
-    assert found.bounds.upper == pytest.approx(20e3 * 2.0 / 10e3 / (found.position - 3.0), rel=1e-6)
-
-
 def test_a_vehicle_runs_in_the_middle_of_a_bridge_wherever_that_is():
     """A bridge drawn beside the X axis: the overhang tips about x = 3, P (x - 3) = W (3 - 2)."""
     moved = [
