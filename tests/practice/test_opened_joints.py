@@ -1,6 +1,7 @@
 """Opened joints: gaps and steps of faces, rims overrun by a little, pressure off closed corners."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import pytest
 import limitblocks as lb
 from limitblocks.geometry.accuracy import GAP
 from limitblocks.practice import capacity_curve
+from limitblocks.practice.advance import _last
 from limitblocks.practice.displaced import _screw_shift, assembly_of, moved
 from limitblocks.practice.resting import face_at
 from limitblocks.practice.touching import across, pressed_in
@@ -123,3 +125,14 @@ def test_a_joint_in_two_pieces_snaps_as_one():
             [one.displacement, one.load_factor], abs=1e-5
         )
     assert divided.zero == pytest.approx(whole.zero, abs=1e-6)
+
+
+def test_what_a_pressed_piece_opens_with_is_in_its_plane_and_no_tie():
+    """Two pieces open at .2 and .1 m/s, a face across them at .05 and a tie, normal to them, not at all."""
+    turned = np.eye(3)[[2, 0, 1]]
+    kinds = ((0.2, np.eye(3), False), (0.1, np.eye(3), False), (0.05, turned, False), (0.0, np.eye(3), True))
+    motions = []
+    for speed, axes, tied in kinds:
+        one = SimpleNamespace(ends=(0, 1), pressed=True, tied=tied, axes_i=axes)
+        motions.append((one, np.array([[0.0, 0.0, speed]]), np.array([True])))
+    assert _last(motions) == [0.1, 0.1, 0.05, 0.0]
