@@ -222,6 +222,7 @@ def mcp_residuals(flow: Flow, state: State) -> Residuals:
     )
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def bounds_residuals(flow: Flow, state: State, upper: float) -> Residuals:
     """Recompute every residual of a pair of bounds; the state's load factor is the lower one."""
     problem, measure = flow.problem, Measure(flow.problem, state)

@@ -9,7 +9,7 @@ from stones import model_of
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.evidence.measure import Measure
-from limitblocks.evidence.residuals import mcp_residuals, residual, worth_of_violations
+from limitblocks.evidence.residuals import bounds_residuals, mcp_residuals, residual, worth_of_violations
 from limitblocks.problem import Flow, State
 
 
@@ -84,6 +84,7 @@ def test_a_state_that_ran_away_has_residuals_without_limit():
     problem = lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0).problem
     far = [np.full(n, 1e200) for n in (problem.C.shape[0], problem.C.shape[1], len(problem.g))]
     assert mcp_residuals(Flow(problem), State(1.0, *far)).worst.value > 1.0
+    assert bounds_residuals(Flow(problem), State(1.0, *far), 1.0).worst.value > 1.0
 
 
 def test_units_of_a_state_that_ran_away_do_not_warn():
