@@ -113,6 +113,22 @@ def test_block_on_a_slope_stands_where_friction_exceeds_the_slope():
         assert found.residuals.worst.value <= 1e-8
 
 
+@pytest.mark.parametrize(("joint", "lowered"), [(lb.OrdunaLourenco, 1), (lb.PointContact, 4)])
+def test_the_margin_of_a_joint_is_shared_by_its_points_and_pieces(joint, lowered):
+    """Each of them is lowered: near the limit two pieces have half the margin, a point of four a quarter."""
+    mu, tangent = 0.5, 0.49
+    whole = on_a_slope(joint(mu), tangent)
+    (own,) = whole.interfaces
+    half = np.array([0.5, 1.0]) * own.polygon  # s1 is along the longest side
+    pieces = [
+        replace(own, centroid=own.centroid + off * own.axes[0], polygon=half)
+        for off in (half[:, 0].max(), half[:, 0].min())
+    ]
+    margins = [lb.stability(one).margin for one in (whole, replace(whole, interfaces=pieces))]
+    margin = (mu - tangent) / np.hypot(1, tangent) / lowered
+    assert margins == pytest.approx([margin, margin / 2], rel=1e-6)
+
+
 @pytest.mark.parametrize("joint", JOINTS)
 def test_block_between_vertical_walls_stands_only_where_it_is_wedged(joint):
     """2 V = W, V <= mu N holds for a large N, which nothing brings about: the walls are parallel."""

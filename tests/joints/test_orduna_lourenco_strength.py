@@ -229,6 +229,13 @@ def test_torsion_of_a_T_beside_the_piece_that_carries_it_is_safe():
     assert "bar, by 7 %" in DOCS
 
 
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco(MU), lb.joints.ExactTorsion(MU)])
+def test_a_piece_pressed_at_its_corner_has_no_torsion(joint):
+    """N = -W at (l1, l2): M1 = -W l2, M2 = W l1."""
+    interface = lb.joints.interface(RECTANGLE, joint)
+    assert joint.strength(interface, (0, 0, 0, 0, 0, 1), (0, 0, -1, -L2, L1, 0)) == pytest.approx(0, abs=1e-9)
+
+
 def twisted(blocks, supports, joint, name):
     """The moment about the vertical through the centroid that it carries, over friction times its weight."""
     weight = MU * next(block.weight for block in blocks if block.name == name)

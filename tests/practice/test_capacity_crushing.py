@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from stones import model_of, shaft
 
 import limitblocks as lb
 from limitblocks.practice import capacity_curve, reinforced, tie
@@ -68,6 +69,21 @@ def test_a_tied_wall_whose_toe_crushes(case, steps):
         assert -point.result.stress_resultants[0, 2] == pytest.approx(normal, rel=1e-5)
     zero = height * np.sin(brentq(lambda turn: by_hand(turn, **case)[0], 0.0, 1.0))
     assert curve.zero == pytest.approx(zero, rel=1e-5)
+
+
+@pytest.mark.parametrize("strength", [1e6, 3e6])
+def test_a_hollow_shaft_whose_wall_crushes(strength):
+    """Pieces of its joint carry what the stress block does, d = W / (2 fc) deep along a wall 2 m long."""
+    height = 4.0
+    stones = shaft(height=height)
+    crushed = stones[1].weight / (2.0 * strength)
+    model = model_of(stones, ["ground"], lb.OrdunaLourenco(0.7, compressive_strength=strength))
+    curve = capacity_curve(model, control=(stones[1].name, (1.0, 0.0, height)), steps=4)
+    for point in curve.points:
+        turn = np.arcsin(point.displacement / height)
+        arm = np.cos(turn) - height / 2 * np.sin(turn) - crushed / 2
+        rise = np.sin(turn) + height / 2 * np.cos(turn)
+        assert point.load_factor == pytest.approx(arm / rise, abs=1e-6)
 
 
 def test_a_curve_ends_where_its_last_step_falls_short_by_rounding():
