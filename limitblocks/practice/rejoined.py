@@ -134,7 +134,10 @@ def slid(assembly: Assembly, sliding: list[bool]) -> tuple[Assembly, tuple[str, 
             kept += [replace(one, pressed=own.pressed) for one in shared]
             flat.setdefault(own.ends, []).append(own)
     for i, j in _apart(assembly, MEETS * assembly.size).tolist() if flat else ():
-        near = [one for ends, group in flat.items() if {i, j} & set(ends) for one in group]
+        supports = not (assembly.model.free[i] or assembly.model.free[j])  # carry nothing between them
+        near = (
+            [] if supports else [one for ends, group in flat.items() if {i, j} & set(ends) for one in group]
+        )
         shared = _shared(assembly, (i, j), near, MEETS) if near else []
         kept += shared
         said += [f"{shared[0].interface.name} touches"] if shared else []

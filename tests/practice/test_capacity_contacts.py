@@ -81,6 +81,18 @@ def test_a_block_that_slides_onto_another_rests_on_both():
         assert areas == pytest.approx([0.7, 0.3][: 1 + len(words)])
 
 
+def test_a_block_slides_on_supports_that_touch():
+    """What they share carries nothing, and no model has it: an IndexError, once a block slid on one."""
+    stones = [
+        lb.Block.box("floor", (6, 6, 1), (0, 0, -0.5)),
+        lb.Block.box("low", (2, 2, 1), (0, 0, 0.5)),
+        lb.Block.box("high", (2, 2, 1), (0, 0, 1.5), 20e3),
+    ]
+    curve = capacity_curve(model_of(stones, ["floor", "low"], lb.PointContact(0.3)), steps=3, largest=0.5)
+    assert [point.load_factor for point in curve.points] == pytest.approx([0.3] * len(curve.points), abs=1e-6)
+    assert not any(point.changes for point in curve.points)
+
+
 def test_a_contact_in_two_parts_keeps_two_as_it_slides():
     """A table on two feet of 1 m x 1 m: each keeps its own area, and none counts twice."""
     outline = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 0), (3, 0), (3, 2), (0, 2)]

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from stones import model_of, shaft
 
 import limitblocks as lb
 from limitblocks.geometry.accuracy import GAP
@@ -136,3 +137,13 @@ def test_what_a_pressed_piece_opens_with_is_in_its_plane_and_no_tie():
         one = SimpleNamespace(ends=(0, 1), pressed=True, tied=tied, axes_i=axes)
         motions.append((one, np.array([[0.0, 0.0, speed]]), np.array([True])))
     assert _last(motions) == [0.1, 0.1, 0.05, 0.0]
+
+
+def test_pieces_that_slide_and_turn_stay_on_the_face_of_the_first_block():
+    """Half way of a turn by .4 about the axis they drew together by 1 - cos(.2), and overlapped."""
+    model = model_of(shaft(), ["ground"], lb.PointContact(0.6))
+    displacements = np.zeros((2, 6))
+    displacements[1] = 0.1, 0.05, 0.0, 0.0, 0.0, 0.4
+    found = moved(assembly_of(model), displacements).model.interfaces
+    for one, other in zip(model.interfaces, found, strict=True):
+        assert other.corners == pytest.approx(one.corners, abs=1e-12)
