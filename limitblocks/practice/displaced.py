@@ -271,12 +271,11 @@ def placed(own: Contact, blocks: Sequence[Block]) -> Interface:
         gap, size = own.ways[:, 2], float(np.abs(own.interface.polygon).max())
         kept = gap <= gap.min() + 1e-6 * size
         middle = (own.on_i + own.on_j)[kept].mean(axis=0) / 2.0
-        if kept.all() and np.abs(own.on_j - own.on_i).max() > 1e-6 * size:
-            # half way of what slides and turns pieces overlap; it is found anew where it stays
-            middle, axes = own.on_i.mean(axis=0), own.axes_i
-        elif not kept.all():
+        if not kept.all():
             resting = [blocks[k] for k in own.ends]
             axes = resting_axes(resting, own.axes_i, own.axes_j, own.rest[kept].mean(axis=0), size)
+        elif own.rigid:  # half way of what slides and turns pieces would overlap; a dowel is a point
+            middle, axes = own.on_i.mean(axis=0), own.axes_i
         centroid = middle - own.interface.polygon[kept].mean(axis=0) @ axes[:2]
         across = float((own.on_j - own.on_i)[kept].mean(axis=0) @ own.half_way[2])
         if abs(across) > 1e-6 * size:  # closed joints stay where they are to the last digit

@@ -9,7 +9,7 @@ from stones import model_of, shaft
 
 import limitblocks as lb
 from limitblocks.geometry.accuracy import GAP
-from limitblocks.practice import capacity_curve
+from limitblocks.practice import capacity_curve, dowel, reinforced
 from limitblocks.practice.advance import _last
 from limitblocks.practice.displaced import _screw_shift, assembly_of, moved
 from limitblocks.practice.resting import face_at
@@ -147,3 +147,12 @@ def test_pieces_that_slide_and_turn_stay_on_the_face_of_the_first_block():
     found = moved(assembly_of(model), displacements).model.interfaces
     for one, other in zip(model.interfaces, found, strict=True):
         assert other.corners == pytest.approx(one.corners, abs=1e-12)
+
+
+def test_a_dowel_is_half_way_across_its_opened_joint():
+    model = model_of(shaft(), ["ground"], lb.PointContact(0.6))
+    pin = dowel(model.interfaces[0], model.interfaces[0].centroid, diameter=0.02, capacity=1e3)
+    displacements = np.zeros((2, 6))
+    displacements[1, 2] = 0.2
+    there = moved(assembly_of(reinforced(model, pin)), displacements).model.interfaces[-1]
+    assert there.centroid == pytest.approx(pin.interface.centroid + displacements[1, :3] / 2)
