@@ -9,6 +9,7 @@ from limitblocks.arrays import Array
 from limitblocks.errors import SolveError
 from limitblocks.evidence.mechanism import PRECISE, linear_program
 from limitblocks.joints import Dowel, Guide
+from limitblocks.mechanics.loads.load import resultant
 from limitblocks.practice.advance import Advanced, advanced, carried, moved_until_contact
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.displaced import CLOSED, Assembly, Contact
@@ -88,13 +89,21 @@ def snapped(assembly: Assembly) -> tuple[Assembly, tuple[str, ...]]:
 
 
 def steepest(assembly: Assembly) -> tuple[Array, float]:
-    """Return displacements (n, 6) in which the dead loads do most work, and its share of what they could."""
+    """Return displacements (n, 6) in which the dead loads do most work, and its share of what they could.
+
+    None is larger than TURN of its block along the sums of the loads and across them: axes that turn with the
+    structure.
+    """
     model, free = assembly.model, assembly.model.free
-    size = np.array([block.size for block in model.blocks])
-    scale = TURN * np.repeat(np.stack([size, np.ones_like(size)], axis=1), 3, axis=1)
-    dead, live = np.zeros_like(scale), np.zeros_like(scale)
-    dead[free], live[free] = (load.on(model.free_blocks) * scale[free] for load in (model.dead, model.live))
-    rows = (rows_of(assembly) @ sparse.diags_array(scale.ravel())).tocsr()
+    sums = np.stack([resultant(load, model.free_blocks) for load in (model.live, model.dead)], axis=1)
+    axes = np.linalg.qr(sums, mode="complete")[0]
+    size = TURN * np.array([block.size for block in model.blocks])
+    lengths = np.stack([size, np.full_like(size, TURN)], axis=1).ravel()
+    scale = sparse.kron(sparse.diags_array(lengths), axes).tocsr()
+    dead, live = np.zeros((len(size), 6)), np.zeros((len(size), 6))
+    dead[free], live[free] = (load.on(model.free_blocks) for load in (model.dead, model.live))
+    dead, live = scale.T @ dead.ravel(), scale.T @ live.ravel()
+    rows = (rows_of(assembly) @ scale).tocsr()
     gap = np.concatenate([own.ways[:, 2] for own in assembly.contacts])
     corners = [len(own.on_i) for own in assembly.contacts]
     rigid = np.repeat([own.rigid for own in assembly.contacts], corners)
@@ -104,7 +113,7 @@ def steepest(assembly: Assembly) -> tuple[Array, float]:
     reach = np.repeat(free, 6) * 1.0
     rests = sparse.csr_array(live.reshape(1, -1) / np.abs(live).max())
     found = linear_program(
-        -dead.ravel() / np.abs(dead).sum(),
+        -dead / np.abs(dead).sum(),
         -rows[2::3][rigid],
         np.maximum(gap[rigid], 0.0),
         sparse.vstack([rows[along], rests]),
@@ -115,4 +124,4 @@ def steepest(assembly: Assembly) -> tuple[Array, float]:
     )
     if found.x is None:
         raise SolveError("whether the structure is held was not found")
-    return (found.x * scale.ravel()).reshape(-1, 6), -float(found.fun)
+    return np.asarray(scale @ found.x).reshape(-1, 6), -float(found.fun)

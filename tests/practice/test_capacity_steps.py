@@ -5,6 +5,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from images import image
+from scipy.spatial.transform import Rotation
 from stones import model_of
 
 import limitblocks as lb
@@ -108,6 +110,14 @@ def test_a_round_of_a_fall_is_a_twentieth_of_a_block(monkeypatch):
                 snapped(there)
         else:
             assert snapped(there) == (there, ())
+
+
+@pytest.mark.parametrize(("axis", "angle"), [("z", 45), ("x", 30)])
+def test_a_round_of_a_fall_turns_with_the_structure(axis, angle):
+    there, turn = overhanging(0.6), Rotation.from_euler(axis, angle, degrees=True).as_matrix()
+    again = pressed_in(assembly_of(image(there.model, turn)), [0], -np.ones((1, 6)))
+    ways = [steepest(one)[0].reshape(-1, 3) for one in (there, again)]
+    assert ways[1] == pytest.approx(ways[0] @ turn.T, abs=1e-9)
 
 
 def test_a_curve_without_an_end_is_ended(monkeypatch):
