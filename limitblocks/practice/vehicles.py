@@ -22,7 +22,7 @@ SUNK = 1e-6  # of the size of a block: how far a road may lie below it
 
 @dataclass(frozen=True)
 class Vehicle:
-    """Axle loads at distances from the first axle; the load factor multiplies all of them.
+    """Axle loads at distances from the first axle, along X; the load factor multiplies all of them.
 
     Parameters
     ----------
