@@ -29,6 +29,10 @@ from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, Mode
 from limitblocks.problem.plane import Choice
 
 MOST = 1.0  # of the force of each interface: a structure that can be wedged at will has no largest margin
+UNDECIDED = (
+    "stresses that carry the dead loads exist, but whether they arise by themselves is undecided: {}; "
+    "docs/stability.md has what helps"
+)
 WEDGED = 1e4  # mean of the rows in their units: a self-stress without bounds leaves no digits to the loads
 
 
@@ -76,15 +80,14 @@ def _slides_through(problem: LimitProblem, weights: Array) -> Fall:
     """Mechanism of the blocks that friction does not hold where nobody wedges them; SolverFailure if none."""
     moving = not_held(problem, weights)
     if moving is None or not moving.any():
-        raise SolverFailure(
-            "stresses that carry the dead loads exist, but whether they arise by themselves is undecided: "
-            "neither such that do nor blocks that slide through were found; docs/stability.md has what helps"
-        )
+        raise SolverFailure(UNDECIDED.format("neither such that do nor blocks that slide through were found"))
     free = sparse.diags_array(np.repeat(1.0 * moving, 6))
     alone = replace(problem, C=sparse.csr_array(problem.C @ free), dead=np.asarray(free @ problem.dead))
     fall = falling(Flow(alone), alone.dead)
     if fall is None:
-        raise SolverFailure("blocks that nobody wedges move, but no mechanism of them was found")
+        raise SolverFailure(
+            UNDECIDED.format("blocks that nobody wedges move, but no mechanism of them was found")
+        )
     return fall
 
 
