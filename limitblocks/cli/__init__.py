@@ -17,7 +17,7 @@ import typer
 from typer.core import TyperGroup
 from typer.main import get_group
 
-from limitblocks.cli import adding, bridges, documents, practice, verbs
+from limitblocks.cli import adding, bridges, documents, practice, repairs, verbs
 from limitblocks.cli.errors import Verbs
 from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
@@ -111,6 +111,8 @@ app.command(cls=Command)(practice.settle)
 app.command(cls=Command)(practice.capacity)
 app.command()(practice.verify)
 app.command()(practice.adequacy)
+app.command(cls=Command)(repairs.least_ties)
+app.command(cls=Command)(repairs.least_masses)
 app.command()(bridges.vehicle)
 app.command(cls=Command)(bridges.backfill)
 app.command(cls=Command)(adding.tie)

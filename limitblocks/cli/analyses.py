@@ -40,6 +40,8 @@ load_factor_range = _analysis("range", "analysis.load_factor_range.run", "load_f
 path = _analysis("path", "analysis.nonassociated.load_path", "load_path", of_iterations)
 settlement = _analysis("settle", "practice.settlement", "settlement", of_stages, tells=False)
 settlement_to_collapse = _analysis("settle", "practice.collapse", "settlement_to_collapse", of_settlement)
+least_ties = _analysis("least-ties", "practice.repair", "least_ties", of_stages, tells=False)
+least_masses = _analysis("least-masses", "practice.repair", "least_masses", of_stages, tells=False)
 adequacy = _analysis("adequacy", "practice.adequacy", "adequacy", of_stages, tells=False)
 capacity = _analysis("capacity", "practice.capacity", "capacity_curve", of_points)
 vehicle = _analysis("vehicle", "practice.worst_position", "worst_position", of_places)
