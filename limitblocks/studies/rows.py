@@ -6,6 +6,7 @@ import csv
 import io
 from abc import abstractmethod
 from collections.abc import Iterable
+from math import inf, isnan, nan
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -64,10 +65,14 @@ def write_csv(rows: list[dict[str, Any]], file: str | Path, *, overwrite: bool =
 
 
 def in_short(value: Any) -> str:
-    """Return a cell as text, numbers with six digits."""
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    """Return a cell as text, numbers with six digits; a word where there is none, or no limit to it."""
+    if not isinstance(value, float):
+        return str(value)
+    return "none" if isnan(value) else "unlimited" if value == inf else f"{value:.6g}"
 
 
 def row_in_short(row: dict[str, Any]) -> list[str]:
     """Return the cells of a row of a study as text, residuals with two digits as everywhere."""
-    return [f"{v:.1e}" if name == "worst_residual" else in_short(v) for name, v in row.items()]
+    residual = row.get("worst_residual", nan)
+    said = {} if isnan(residual) else {"worst_residual": f"{residual:.1e}"}
+    return [said.get(name) or in_short(value) for name, value in row.items()]

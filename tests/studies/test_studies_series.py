@@ -315,6 +315,8 @@ def test_rows_as_text_numbers_and_csv(tmp_path):
     table = series.table().splitlines()
     assert table[0].split()[:6] == ["angle,", "rad", "x", "y", "z", "load_factor"]
     assert len(table) == 5
+    # the last pushes the block into the ground
+    assert table[4].split()[4:8] == ["unlimited", "none", "none", "none"]
     file = series.write_csv(tmp_path / "rows.csv")
     with file.open(newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
