@@ -12,7 +12,7 @@ from limitblocks.arrays import Array, real, reals
 from limitblocks.errors import ModelError, SolveError
 from limitblocks.shown import counted, many
 from limitblocks.studies.results import FLOWS, unanswered
-from limitblocks.studies.rows import Rows
+from limitblocks.studies.rows import Rows, in_short
 
 ANSWER = ("load_factor", "mode", "error", "remarks")  # columns beside the parameters
 FEW = 19  # samples, below which the least of n has a share of more than 5 % below it, 1 / (n + 1)
@@ -156,12 +156,12 @@ class SampledStudy(Rows):
         failed = unanswered(self.load_factors, self.errors)
         said = f"{many(len(self.load_factors), 'analysis', 'analyses')} of {', '.join(self.names)}"
         try:
-            low, middle, high = self.quantiles()
+            low, middle, high = map(in_short, self.quantiles().tolist())
         except SolveError:
             return f"{said}, no load factor{failed}"
         few = len(self._known()) < FEW
-        ends = f"{'least and largest' if few else '5 % to 95 %'} {low:.6g} to {high:.6g}"
-        found = f"{FLOWS[self.analysis]} load factor {middle:.6g}, {ends}"
+        ends = f"{'least and largest' if few else '5 % to 95 %'} {low} to {high}"
+        found = f"{FLOWS[self.analysis]} load factor {middle}, {ends}"
         return f"{said}: {found}{failed}{self._left_out}{self._remarked}"
 
     @property
@@ -176,9 +176,10 @@ class SampledStudy(Rows):
         if not np.isnan(self._known(np.nan)).any():
             return ""
         least, most = self.quantiles([0.05], failed=0.0)[0], self.quantiles([0.95], failed=np.inf)[0]
+        limit = "may be unlimited" if most == np.inf else f"at most {most:.6g}"
         return (
             "; the quantiles leave these out, on whichever side they lie: with them 5 % is at least "
-            f"{least:.6g}, 95 % at most {most:.6g}"
+            f"{least:.6g}, 95 % {limit}"
         )
 
     def _known(self, failed: float | None = None) -> Array:

@@ -155,7 +155,7 @@ def test_quantiles_say_what_they_can_be_with_the_samples_left_out():
     half = [found.quantiles([0.5], failed=one)[0] for one in (None, 0.0, np.inf)]
     assert half == pytest.approx([0.5, 0.4, 0.6])
     assert "2 without an answer (NotConverged: lost); the quantiles leave these out" in str(found)
-    assert str(found).endswith("with them 5 % is at least 0, 95 % at most inf")
+    assert str(found).endswith("with them 5 % is at least 0, 95 % may be unlimited")
     fallen = SampledStudy("bounds", ("x",), values[:9, None], values[:9], samples=9, modes=("",) * 9,
                           errors=("",) * 9, indices=False)  # fmt: skip
     assert "leave" not in str(fallen)
@@ -175,7 +175,7 @@ def test_no_quantile_is_above_the_largest_with_the_samples_left_out(lost):
     true = complete.quantiles([0.95])[0]
     assert true == pytest.approx(0.55 * 48.0 + 0.45 * lost if lost < np.inf else 48.0)
     assert true <= without.quantiles([0.95], failed=np.inf)[0]
-    assert str(without).endswith("95 % at most inf")
+    assert str(without).endswith("95 % may be unlimited")
     assert without.quantiles([0.9], failed=np.inf) == pytest.approx([45.9])  # no lost one has a share
 
 
@@ -186,6 +186,13 @@ def test_the_line_claims_no_quantile_that_so_few_samples_do_not_have(n, said):
     words = {"modes": ("",) * n, "errors": ("",) * n, "samples": n, "indices": False}
     study = SampledStudy("nonassociated", ("x",), values[:, None], values, **words)
     assert f"non-associated load factor {(n + 1) / 2:g}, {said} 1 to {n}" in str(study)
+
+
+def test_the_line_says_in_a_word_that_a_load_is_unlimited():
+    values = np.array([1.0, 2.0, np.inf])
+    words = {"modes": ("",) * 3, "errors": ("",) * 3, "samples": 3, "indices": False}
+    study = SampledStudy("bounds", ("x",), values[:, None], values, **words)
+    assert "associated load factor 2, least and largest 1 to unlimited" in str(study)
 
 
 @pytest.mark.parametrize("n", [16, 64])
