@@ -13,7 +13,7 @@ PUSH = (float(np.cos(0.3)), float(np.sin(0.3)), 0.0)
 
 @pytest.mark.parametrize(
     ("joint", "courses", "stones"),
-    [(lb.OrdunaLourenco(0.8), 5, 9), (lb.PointContact(0.6), 6, 9)],
+    [(lb.OrdunaLourenco(0.8), 6, 9), (lb.PointContact(0.6), 6, 9)],
     ids=["paper", "point contact"],
 )
 def test_a_large_barrier_closes_domes_that_the_first_means_leave_open(joint, courses, stones):
