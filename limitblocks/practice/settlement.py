@@ -66,8 +66,7 @@ class Settlement(Result):
         """What to know of the answers that the reactions are of."""
         said = dict.fromkeys(self.bounds.remarks + (self.result.remarks if self.result else ()))
         return tuple(
-            f"of settling.model, whose load factor is higher where the reaction is smaller: {one}"
-            for one in said
+            f"of the load factor of the settling, higher where the reaction is smaller: {one}" for one in said
         )
 
     def rows(self) -> list[dict[str, Any]]:

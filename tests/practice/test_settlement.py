@@ -247,7 +247,7 @@ def test_remarks_on_a_load_factor_say_that_a_higher_one_is_a_smaller_reaction():
     assert found.remarks == ()
     said = replace(found, result=replace(found.result, remarks=("mostly higher",))).remarks
     assert said == (
-        "of settling.model, whose load factor is higher where the reaction is smaller: mostly higher",
+        "of the load factor of the settling, higher where the reaction is smaller: mostly higher",
     )
 
 
