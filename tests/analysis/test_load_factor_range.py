@@ -165,7 +165,7 @@ def test_an_end_that_a_solver_leaves_rough_is_polished(rough, certified, pushed,
     flow, _ = flow_of(pushed, 0.0, Turning.CENTROID)
     a, x, u, y = vars(state_of(pushed, flow.problem, of_pushed.load_path.solution)).values()
     off = rough * np.random.default_rng(0).normal(size=len(x))
-    monkeypatch.setattr(faces, "_solutions", lambda *_: [()])
+    monkeypatch.setattr(faces, "answers", lambda *_: [Solution("none", "solved", (), ())])
     found = faces.proven(flow, None, lambda: (a, x + off, u, y))
     assert defect(flow, State(a, x + off, u, y)) > TOLERANCE
     assert (found is not None) == certified

@@ -38,7 +38,7 @@ def corner_moved(by):
 
 @pytest.fixture(scope="module")
 def moved_corner():
-    return corner_moved(1e-6)
+    return corner_moved(2e-6)
 
 
 def followed(model):
