@@ -80,6 +80,15 @@ def test_longest_side(outline, side):
     assert turn[0] @ along == pytest.approx([np.hypot(*along), 0.0])
 
 
+def test_axes_of_a_rectangle_are_along_its_side_to_the_last_bit():
+    """The mean of its two long sides is off by rounding."""
+    for angle in np.linspace(0.0, 3.0, 50):
+        outline = turned(UNIT * (2, 1) - (0.3, 0.2), angle)
+        first, turn = polygon.along_longest_side(outline[None], np.eye(3)[None, :2])
+        along = outline[first[0]] - outline[first[0] - 1]
+        assert (turn[0, 0] == along / np.hypot(*along)).all()
+
+
 def test_longest_side_in_a_vertical_plane_looks_along_z_last():
     planes = np.array([[(0, 1, 0), (0, 0, 1)]], dtype=float)  # a plane of constant x
     assert polygon.along_longest_side(UNIT[None], planes)[0].tolist() == [1]  # along +Y

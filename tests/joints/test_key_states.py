@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.geometry.polygon import centroids
+from limitblocks.geometry.polygon import areas, centroids
 from limitblocks.joints.interaction import effective_areas
 from limitblocks.joints.key_states import key_state_planes
 from limitblocks.joints.torsion import torsion_constant
@@ -47,6 +47,28 @@ def test_the_states_of_table_4_are_on_the_surface(sides):
     assert torsion(polygon, [(0.0, 0.0)]) == pytest.approx(torsion_constant(polygon))
     assert torsion(polygon, polygon) == pytest.approx(0.0, abs=1e-9)
     assert torsion(polygon, (polygon + np.roll(polygon, -1, axis=0)) / 2.0) == pytest.approx(length / 4.0)
+
+
+@pytest.mark.parametrize("sides", [3, 5, 6])
+def test_torsion_alone_and_with_shear_has_the_constant_of_the_polygon(sides):
+    """Eq. (23), and Eqs (27)-(29) without shear: |T| / c_T."""
+    rows = lb.OrdunaLourenco(MU).yield_rows(regular(sides)[None])
+    modes = np.array([str(mode) for mode in rows.modes])
+    for mode, per_row in (("twist", 1), ("slip-twist", 3)):
+        own = np.abs(rows.F[0, modes == mode, 5][::per_row])
+        assert own == pytest.approx(np.full(2, 1.0 / torsion_constant(regular(sides))))
+
+
+def test_cohesion_is_so_much_normal_force_more():
+    """Mu |N| becomes mu |N| + A cohesion in all rows but those of hinging."""
+    polygon, cohesion = regular(6), 0.3
+    joined = lb.OrdunaLourenco(MU, cohesion=cohesion).yield_rows(polygon[None])
+    dry = lb.OrdunaLourenco(MU).yield_rows(polygon[None])
+    Q = np.array([0.1, -0.2, -1.0, 0.2, 0.3, 0.15])
+    pressed = Q - np.array([0.0, 0.0, areas(polygon) * cohesion / MU, 0.0, 0.0, 0.0])
+    own = np.array([str(mode) != "hinge" for mode in dry.modes])
+    values = [(rows.F[0] @ state + rows.g[0])[own] for rows, state in ((joined, Q), (dry, pressed))]
+    assert values[0] == pytest.approx(values[1])
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -114,3 +136,5 @@ def test_a_corner_cut_off_leaves_the_other_states(cut):
     planes = key_state_planes(np.stack([regular(5), five]))
     assert planes[..., 0].min(axis=1) == pytest.approx([torsion_constant(regular(5)), constant], rel=cut)
     assert np.abs(planes).max() < 2.0  # no row runs away
+    alone = key_state_planes(five[None])[0]
+    assert len(np.unique(alone, axis=0)) == len(alone)
