@@ -56,6 +56,12 @@ def real(value: Any) -> float:
         return np.nan
 
 
+def as_typed(value: Any) -> str:
+    """Return what a user gave as text, its numbers without the types that NumPy gives them."""
+    with np.printoptions(legacy="1.25"):
+        return repr(value)
+
+
 def largest_in_rows(matrix: sparse.csr_array) -> Array:
     """Size of the largest entry of each row, zero for none."""
     largest, filled = np.zeros(matrix.shape[0]), np.flatnonzero(np.diff(matrix.indptr))

@@ -92,19 +92,17 @@ class SolveError(LimitBlocksError):
 class NoEquilibrium(SolveError):
     """The dead loads alone cannot stand; `blocks` names the blocks that fall.
 
-    `left_out` are parts of the file of the model that are no blocks of it, `loads` says what falls.
+    `left_out` are parts of the file of the model that are no blocks of it, `loads` says what falls;
+    `said` is the message without what to check, as of a structure that has moved.
     """
 
     def __init__(
         self, blocks: tuple[str, ...], left_out: Sequence[str] = (), loads: str = "the dead loads alone"
     ) -> None:
         self.blocks, self.left_out = blocks, tuple(left_out)
-        super().__init__(
-            f"{loads} cannot stand: {few(blocks)} would fall; "
-            + "; ".join(
-                ["check dimensions, supports, missing interfaces, friction and strengths", *missing(left_out)]
-            )
-        )
+        self.said = f"{loads} cannot stand: {few(blocks)} would fall"
+        check = "check dimensions, supports, missing interfaces, friction and strengths"
+        super().__init__("; ".join([self.said, check, *missing(left_out)]))
 
 
 class UnlimitedLoad(SolveError):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
+from limitblocks.practice import capacity_curve, least_masses
 from limitblocks.problem import State
 
 POINTS = lb.structures.wall(lb.PointContact(0.6), length=1.6, courses=2)
@@ -52,3 +53,22 @@ def test_an_array_s_own_scalar_is_seen():
 def test_a_prompt_shows_the_load_factor():
     found = lb.bounds(POINTS)
     assert "np." not in repr((found.lower, found.upper, found.load_factor, found.gap))
+
+
+@pytest.mark.parametrize(
+    ("said", "ask"),
+    [
+        ("start is (1.0, nan)", lambda x: lb.loads.line_load((0, 0, -1e3), (x(1), x(np.nan)), (2, 0))),
+        ("weight is -1.0", lambda x: lb.loads.added_mass("wall", (0, 0, 1), weight=x(-1))),
+        ("friction is -1.0", lambda x: lb.PointContact(x(-1))),
+        ("compressive strength is -1.0 Pa", lambda x: lb.OrdunaLourenco(0.6, compressive_strength=x(-1))),
+        ("angle is 30.0", lambda x: lb.loads.tilting((1, 0, 0)).at(x(30))),
+        ("largest is 0.0", lambda x: capacity_curve(POINTS, largest=x(0))),
+        ("control is (0.0, 1.0)", lambda x: capacity_curve(POINTS, control=(x(0), x(1)))),
+        ("places are (0.0, 1.0)", lambda x: least_masses(POINTS, (x(0), x(1)), 0.5)),
+    ],
+)
+def test_an_error_shows_the_number_that_was_given(said, ask):
+    with pytest.raises(lb.ModelError) as caught:
+        ask(np.float64)
+    assert said in str(caught.value)

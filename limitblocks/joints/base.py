@@ -9,7 +9,7 @@ from typing import Any, Protocol, TypeGuard, runtime_checkable
 
 import numpy as np
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, as_typed
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Interface
 from limitblocks.written import tagged
@@ -146,7 +146,7 @@ def _is_number(value: object) -> bool:
 def checked_friction(friction: float) -> float:
     """Return `friction` as a float if it is a finite number >= 0, else raise ModelError."""
     if not (_is_number(friction) and 0.0 <= friction < np.inf):
-        raise ModelError(f"friction is {friction!r}, expected a finite coefficient >= 0")
+        raise ModelError(f"friction is {as_typed(friction)}, expected a finite coefficient >= 0")
     return float(friction)
 
 
@@ -157,7 +157,7 @@ def checked_stress(word: str, stress: float, positive: bool = False, unlimited: 
     """
     if not (_is_number(stress) and np.isfinite(stress) and stress >= 0.0) or (positive and not stress):
         least = ("> 0" if positive else ">= 0") + "; None stands for no limit" * unlimited
-        raise ModelError(f"{word} is {stress!r} Pa, expected a finite stress {least}")
+        raise ModelError(f"{word} is {as_typed(stress)} Pa, expected a finite stress {least}")
 
 
 def checked_choice(word: str, choice: str, choices: tuple[str, ...]) -> None:

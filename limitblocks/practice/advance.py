@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from limitblocks.arrays import Array, read_only, real
+from limitblocks.arrays import Array, as_typed, read_only, real
 from limitblocks.errors import ModelError
 from limitblocks.evidence.relative_rates import largest_rate
 from limitblocks.geometry import Block
@@ -44,7 +44,7 @@ class Advanced:
 def farthest(largest: object, what: str) -> float:
     """Return the displacement at which a way ends, which may be infinite; ModelError where it is none."""
     if not (given := real(largest)) > 0.0:
-        raise ModelError(f"largest is {largest!r}, expected a {what} > 0 in m")
+        raise ModelError(f"largest is {as_typed(largest)}, expected a {what} > 0 in m")
     return given
 
 

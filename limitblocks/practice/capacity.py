@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from limitblocks.analysis.nonassociated.loop import nonassociated
-from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError, SolveError
+from limitblocks.arrays import Array, as_typed, read_only
+from limitblocks.errors import ModelError, NoEquilibrium, SolveError
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.joints.base import checked_count
 from limitblocks.mechanics.loads.load import resultant
@@ -59,8 +59,8 @@ def capacity_curve(
         blocks, and keep their directions.
     control : (str, sequence of float), optional
         Block and point (m) whose displacement along the live load is measured. Default: of the block that
-        moves fastest along it, of several the highest, the foremost of the highest corners, or the middle of
-        several: on a wall that of the outer face, whose displacement at zero is the least.
+        moves fastest along it, of several the highest (Z is up), the foremost of the highest corners, or the
+        middle of several: on a wall that of the outer face, whose displacement at zero is the least.
     steps : int
         Points to the zero that the slope of the curve foretells. Between two of them the mechanism of the
         first is followed: more steps see sooner where another takes over.
@@ -147,7 +147,8 @@ def _ahead(
         except SolveError as error:
             step *= SHORT if step == ahead else 0.5
             if step < least or isinstance(error, NoRest):
-                return f"no checked answer beyond {point.displacement:.6g} m: {error}"
+                why = error.said if isinstance(error, NoEquilibrium) else error
+                return f"no checked answer beyond {point.displacement:.6g} m: {why}"
             continue
         if found is None:
             return stopped(point.displacement)
@@ -206,11 +207,16 @@ def _control(model: Model, result: Nonassociated, given: Any) -> Control:
         point = point.mean(axis=0)  # which corner is the foremost may be a matter of rounding
     else:
         if not isinstance(given, tuple | list) or len(given) != 2 or not isinstance(given[0], str):
-            raise ModelError(f"control is {given!r}, expected a block and a point, ('wall', (0.5, 0, 5))")
+            raise ModelError(
+                f"control is {as_typed(given)}, expected a block and a point, ('wall', (0.5, 0, 5))"
+            )
         block, point = control_point(model, *given)
     control = Control(block.name, read_only(point), direction)
     if not _pace(model, control, rates) > STILL:
-        raise ModelError(f"the control point of block {block.name!r} does not move along the live load")
+        raise ModelError(
+            f"the control point of block {block.name!r} does not move along the live load; choose a block "
+            "and a point of it that do"
+        )
     return control
 
 

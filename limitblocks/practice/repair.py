@@ -11,7 +11,7 @@ import numpy as np
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.least import least_loads, least_stresses
 from limitblocks.analysis.nonassociated.loop import nonassociated
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import Array, as_typed, read_only
 from limitblocks.errors import ModelError, SolverFailure, sequence_of
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
@@ -203,7 +203,7 @@ def _places(given: Any) -> list[tuple[str, Vector]]:
         return [(str(block), vector(at, f"place on block {block!r}: at")) for block, at in given]
     except (TypeError, ValueError):
         said = "expected a block and a point each, such as [('wall', (0.5, 0.0, 5.0))]"
-        raise ModelError(f"places are {given!r}, {said}") from None
+        raise ModelError(f"places are {as_typed(given)}, {said}") from None
 
 
 def _refuse_away(model: Model, places: list[tuple[str, Vector]]) -> None:

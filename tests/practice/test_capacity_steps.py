@@ -58,18 +58,27 @@ def test_a_contact_without_force_is_not_pressed():
     ]
 
 
-def test_no_answer_is_said_after_steps_of_a_ten_thousandth_of_the_size(monkeypatch):
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        (lb.SolveError("none"), "none"),
+        # of a structure that has moved there are no dimensions and supports to check
+        (lb.errors.NoEquilibrium(("stone",)), "the dead loads alone cannot stand: stone would fall"),
+    ],
+)
+def test_no_answer_is_said_after_steps_of_a_ten_thousandth_of_the_size(error, said, monkeypatch):
     tried = []
 
     def fails(assembly, control, point, step):
         tried.append(step)
-        raise lb.SolveError("none")
+        raise error
 
     monkeypatch.setattr(capacity, "_advanced", fails)
     there = assembly_of(lb.structures.block(JOINT, width=0.2, height=1.0))
     control = Control("block 1", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
     point = CapacityPoint(0.1, 0.2, 0.0, there.model, lb.nonassociated(there.model), ())
-    assert capacity._ahead(there, control, point, 0.05, 0.2, np.inf) == "no checked answer beyond 0.1 m: none"
+    end = capacity._ahead(there, control, point, 0.05, 0.2, np.inf)
+    assert end == f"no checked answer beyond 0.1 m: {said}"
     assert 1e-4 * there.size <= min(tried) < 2e-4 * there.size
 
 

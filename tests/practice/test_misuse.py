@@ -220,7 +220,7 @@ def test_verification_of_other_loads(facade, live, words):
         (lambda wall: capacity_curve(wall, control=("stone", (0, 0, 0))),
          "control block 'stone' is not a block of the model"),
         (lambda wall: capacity_curve(wall, control=("ground", (0, 0, 0))),
-         "the control point of block 'ground' does not move along the live load"),
+         "the control point of block 'ground' does not move along the live load; choose a block and a point"),
         (lambda wall: capacity_curve(wall, largest="1"), "largest is '1', expected a displacement > 0 in m"),
         (lambda wall: capacity_curve(wall, control=("wall", (50, 0, 1))),
          "control point (50, 0, 1) is not on block 'wall', which reaches from (-0.25, -0.5, 0) to"),

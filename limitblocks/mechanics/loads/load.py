@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
-from limitblocks.arrays import Array, real, reals_if_any
+from limitblocks.arrays import Array, as_typed, real, reals_if_any
 from limitblocks.errors import ModelError, few, near, sequence_of
 from limitblocks.geometry import Block
 
@@ -130,7 +130,7 @@ def number(
     wanted += f" and <= {most:g}" if most < np.inf else ""
     short = float(f"{given:.12g}")  # -1.962, not -1.9620000000000002
     shown = short if abs(given - short) > 0.0 else value
-    raise ModelError(f"{word} is {shown!r}, expected a finite number{wanted}{unit and f' in {unit}'}")
+    raise ModelError(f"{word} is {as_typed(shown)}, expected a finite number{wanted}{unit and f' in {unit}'}")
 
 
 def along(direction: Sequence[float]) -> str:
@@ -175,6 +175,8 @@ def position(name: str, blocks: Sequence[Block]) -> int:
 def _numbers(values: Sequence[float], word: str, count: int, said: str) -> list[float]:
     array = reals_if_any(values)
     if array.shape != (count,) or not (np.abs(array) < _LARGEST).all():
-        raise ModelError(f"{word} is {values!r}, expected {said} finite numbers < {_LARGEST:g} in size")
+        raise ModelError(
+            f"{word} is {as_typed(values)}, expected {said} finite numbers < {_LARGEST:g} in size"
+        )
     numbers: list[float] = array.tolist()
     return numbers

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from limitblocks.arrays import Array, read_only, real
+from limitblocks.arrays import Array, as_typed, read_only, real
 from limitblocks.errors import ModelError
 from limitblocks.joints.base import checked_count
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, mass_proportional, self_weight
@@ -87,7 +87,9 @@ class Tilting:
     def at(self, angle: float) -> Load:
         """Return the weight on a plane tilted by `angle`, rad; ModelError beyond a right angle."""
         if not abs(real(angle)) <= np.pi / 2:
-            raise ModelError(f"angle is {angle!r}, expected rad up to pi/2: math.radians({angle}) if degrees")
+            raise ModelError(
+                f"angle is {as_typed(angle)}, expected rad up to pi/2: math.radians({angle}) if degrees"
+            )
         return float(np.cos(angle)) * self.dead + float(np.sin(angle)) * self.live
 
 
