@@ -20,8 +20,10 @@ Every message is one line: what is wrong, the name and value, what would be righ
 from __future__ import annotations
 
 import copyreg
+import reprlib
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -156,8 +158,16 @@ def refuse_no_progress(progress: object) -> None:
 def near(name: str, known: Iterable[str]) -> str:
     """Return '; did you mean ...?', or nothing where no known name is like `name`."""
     letters = {one.casefold(): one for one in known}
-    names = get_close_matches(name.casefold(), letters, 1)
+    names = get_close_matches(str(name).casefold(), letters, 1)
     return f"; did you mean {letters[names[0]]!r}?" if names else ""
+
+
+def path_of(file: Any) -> Path:
+    """Return the path of a file that is given by its name, or raise ModelError."""
+    try:
+        return Path(file)
+    except TypeError:
+        raise ModelError(f"file is {reprlib.repr(file)}, expected its name: a str or Path") from None
 
 
 def sequence_of(word: str, given: Any, kind: type) -> tuple[Any, ...]:

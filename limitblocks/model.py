@@ -16,7 +16,7 @@ from weakref import WeakSet
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.errors import ModelError, few, missing, sequence_of
+from limitblocks.errors import ModelError, few, missing, path_of, sequence_of
 from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.geometry.block import WORDS
 from limitblocks.geometry.contact import nearly_tied
@@ -172,9 +172,9 @@ class Model(Viewed):
             If the file exists and `overwrite` is false, it cannot be written, or by its suffix
             :func:`limitblocks.read` would not read it.
         """
-        if Path(file).suffix.lower() not in ("", ".json"):
+        if path_of(file).suffix.lower() not in ("", ".json"):
             raise ModelError(f"{file}: a model file ends in .json; files.write_blocks writes other formats")
-        return write(Path(file), json.dumps(self.to_dict(), indent=1), overwrite)
+        return write(file, json.dumps(self.to_dict(), indent=1), overwrite)
 
     def __str__(self) -> str:
         free, supports = many(len(self.free_blocks), "block"), many(len(self.supports), "support")

@@ -13,7 +13,7 @@ from uuid import uuid4
 
 import numpy as np
 
-from limitblocks.errors import LimitBlocksError, ModelError
+from limitblocks.errors import LimitBlocksError, ModelError, path_of
 
 _FLOATS = ("float", str(float), "float | None")  # kinds of fields, as they are annotated
 
@@ -25,8 +25,8 @@ def refuse_existing(files: Iterable[Path], overwrite: bool) -> None:
             raise _exists(path)
 
 
-def write(path: Path, data: bytes | str, overwrite: bool) -> Path:
-    """Write `data`, text as UTF-8, to the file at `path` and return the path.
+def write(file: str | Path, data: bytes | str, overwrite: bool) -> Path:
+    """Write `data`, text as UTF-8, to `file` and return its path.
 
     All goes to a new file in the same folder, which then takes the name: who reads meanwhile, and whatever
     stops the writer, finds the old file or the new one. Devices and pipes are written to directly.
@@ -36,6 +36,7 @@ def write(path: Path, data: bytes | str, overwrite: bool) -> Path:
     LimitBlocksError
         The file exists and `overwrite` is false, or it cannot be written.
     """
+    path = path_of(file)
     try:
         if isinstance(data, str):
             data = data.encode("utf-8")

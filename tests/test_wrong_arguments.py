@@ -347,3 +347,59 @@ def test_numbers_of_any_kind_are_taken(value):
 def test_a_friction_in_place_of_a_joint_is_named(ask, wall):
     with pytest.raises(lb.ModelError, match=r"joint is 0\.6, expected a joint such as OrdunaLourenco"):
         ask(replace(wall, interfaces=lb.find_interfaces(wall.blocks, 0.6)))
+
+
+FILES = {
+    "read": lb.read,
+    "read_blocks": lb.files.read_blocks,
+    "read_drawing": lambda file: lb.files.read_drawing(file, thickness=1.0),
+    "read_materials": lb.files.read_materials,
+    "read_result": lb.files.read_result,
+    "look": lb.files.look,
+}
+
+
+@pytest.mark.parametrize("file", [3, None, b"wall.json", ["wall.json"]])
+@pytest.mark.parametrize("ask", FILES)
+def test_what_names_no_file_is_named(ask, file):
+    with pytest.raises(lb.ModelError, match=re.escape(f"file is {file!r}, expected its name: a str or Path")):
+        FILES[ask](file)
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda wall: wall.save(None),
+        lambda wall: lb.files.write_blocks(wall, None),
+        lambda wall: lb.files.write_vtu(wall, None),
+        lambda wall: lb.files.write_animation(wall, None, None),
+        lambda wall: lb.files.write_forces(wall, None, None),
+        lambda wall: lb.report(wall).save(None),
+    ],
+)
+def test_nothing_is_written_to_what_names_no_file(ask, wall):
+    with pytest.raises(lb.ModelError, match="file is None, expected its name"):
+        ask(wall)
+
+
+@pytest.mark.parametrize(
+    ("ask", "said"),
+    [
+        (lambda file: lb.files.read_blocks(file, units=[]), r"units are \[\]; expected one of"),
+        (lambda file: lb.files.read_blocks(file, unit_weight={3: 1.0}), "unit weight of layer 3: there are"),
+        (lambda file: lb.files.read_drawing(file, thickness=None), "thickness is None; expected a number"),
+        (lambda file: lb.files.read_drawing(file, thickness=1.0, layers=3), "layers is 3, expected a seq"),
+        (lambda file: lb.files.read_drawing(file, thickness=1.0, layers=[3]), "layers holds 3, expected a"),
+    ],
+)
+def test_what_says_how_to_read_a_file_is_checked(ask, said, wall, tmp_path):
+    file = lb.files.write_blocks(wall, tmp_path / "wall.dxf")
+    with pytest.raises(lb.ModelError, match=said):
+        ask(file)
+
+
+def test_nothing_to_heal_and_blocks_that_are_a_model_are_named(wall):
+    with pytest.raises(lb.ModelError, match="no blocks given; expected at least one"):
+        lb.heal([], 1e-3)
+    with pytest.raises(lb.ModelError, match="expected a sequence of Block"):
+        lb.files.select(wall, "base")

@@ -106,11 +106,14 @@ def heal(blocks: Sequence[Block], accuracy: float | None = None) -> Healed:
     Raises
     ------
     ModelError
-        The accuracy is not positive, or it is not given and there are too few joints to tell it.
+        There are no blocks, the accuracy is not positive, or it is not given and there are too few joints to
+        tell it.
     """
     blocks = sequence_of("blocks", blocks, Block)
-    centre = np.mean([block.vertices.mean(axis=0) for block in blocks], axis=0) if blocks else np.zeros(3)
-    length = block_length(blocks) if blocks else 1.0
+    if not blocks:
+        raise ModelError("no blocks given; expected at least one")
+    centre = np.mean([block.vertices.mean(axis=0) for block in blocks], axis=0)
+    length = block_length(blocks)
     shown = Accuracy.shown(blocks)
     size = shown.size * length if accuracy is None and shown.size is not None else accuracy
     if size is None:

@@ -42,6 +42,7 @@ def select(blocks: Sequence[Block], wanted: Selection, word: str = "selection") 
     ModelError
         A text matches no block, or the function is true for none; the message lists what there is.
     """
+    blocks = sequence_of("blocks", blocks, Block)
     if callable(wanted):
         picked = {block.name for block in blocks if wanted(block)}
         if not picked:

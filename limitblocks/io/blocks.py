@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from copy import copy
 from pathlib import Path
 
-from limitblocks.errors import ModelError, sequence_of
+from limitblocks.errors import ModelError, path_of, sequence_of
 from limitblocks.geometry import Block
 from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, formats, strict_json
@@ -63,7 +63,7 @@ def read_blocks(
     MissingDependency
         The format needs a package that is not installed.
     """
-    path = Path(file)
+    path = path_of(file)
     with faults.named(path):
         return imported(contents_of(path), units, unit_weight, up, twisted, skip_bad)
 
@@ -106,7 +106,7 @@ def write_blocks(
         The suffix is unknown, or there are no blocks.
     """
     given = blocks.blocks if isinstance(blocks, Model | ImportedBlocks) else blocks
-    bodies, path = sequence_of("blocks", given, Block), Path(file)
+    bodies, path = sequence_of("blocks", given, Block), path_of(file)
     if not bodies:
         raise ModelError(f"{path}: no blocks given; expected at least one")
     if path.suffix.lower() not in formats.WRITTEN:

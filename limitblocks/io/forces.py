@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from limitblocks.drawing.arrows import picture
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, path_of
 from limitblocks.io import formats
 from limitblocks.io.blocks import plain
 from limitblocks.io.imported import one_line
@@ -49,7 +49,7 @@ def write_forces(
     ModelError
         The suffix is unknown, the scale is not above 0, the result has no forces or belongs to another model.
     """
-    model, path = checked_model(model), Path(file)
+    model, path = checked_model(model), path_of(file)
     if path.suffix.lower() not in formats.FORCES:
         known = ", ".join(formats.FORCES)
         raise ModelError(

@@ -11,7 +11,7 @@ import numpy as np
 
 from limitblocks.analysis.magnitudes import of_volumes
 from limitblocks.analysis.magnitudes_of_size import of_size
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, path_of
 from limitblocks.geometry import Block, Contacts, find_contacts
 from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, model_file
@@ -157,7 +157,7 @@ def look(
     MissingDependency
         The format needs a package that is not installed.
     """
-    path = Path(file)
+    path = path_of(file)
     if layers and thickness is None:
         raise ModelError(f"{path}: layers are of DXF elevations: give thickness (--thickness), too")
     if is_model_file(path):

@@ -8,7 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, path_of
 from limitblocks.geometry.selection import in_metres
 from limitblocks.io import faults, strict_json
 from limitblocks.io.registry import JOINTS
@@ -29,7 +29,7 @@ def read_materials(file: str | Path) -> Materials:
         The file cannot be read or the table in it is wrong; `problems` has one line per fault, each with the
         file and the place in it.
     """
-    path = Path(file)
+    path = path_of(file)
     with faults.named(path):
         from limitblocks.io.documents import MaterialsDocument  # here, to keep `import limitblocks` quick
 

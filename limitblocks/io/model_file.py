@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from limitblocks.arrays import read_only
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, path_of
 from limitblocks.geometry import Block, Contacts, Interface, Tolerances, find_contacts
 from limitblocks.geometry.block import WORDS
 from limitblocks.geometry.given_interfaces import interface_faults
@@ -45,7 +45,7 @@ def read(file: str | Path) -> Model:
         The file cannot be read or the model in it is wrong; `problems` has one line per fault, each with the
         file and the place in it.
     """
-    path = Path(file)
+    path = path_of(file)
     with faults.named(path):
         return _model(in_si(_document(strict_json.read_text(path))))
 

@@ -57,7 +57,7 @@ def metres(units: str | None, stated: float | None = None) -> float:
     """
     if units is None:
         return 1.0 if stated is None else stated
-    if units not in UNITS:
+    if units not in tuple(UNITS):  # a list has no hash
         raise ModelError(f"units are {units!r}; expected one of {', '.join(UNITS)}")
     return UNITS[units]
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, path_of
 from limitblocks.evidence.claim import Claim
 from limitblocks.io import faults, strict_json
 from limitblocks.kinds import KINDS, kind_of, named
@@ -63,7 +63,7 @@ def read_result(file: str | Path, model: Model | None = None) -> Any:
         The file cannot be read, what it says is wrong, or it belongs to another model; `problems` has one
         line per fault, each with the file and the place in it.
     """
-    path = Path(file)
+    path = path_of(file)
     with faults.named(path):
         text = strict_json.read_text(path)
         data = strict_json.parse(text)
@@ -89,7 +89,7 @@ def write_result(result: Result, file: str | Path, *, overwrite: bool = False) -
     LimitBlocksError
         If the file exists and `overwrite` is false, or it cannot be written.
     """
-    return write(Path(file), result_text(result) + "\n", overwrite)
+    return write(file, result_text(result) + "\n", overwrite)
 
 
 def result_text(result: Result) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 from limitblocks.analysis.magnitudes import questions
 from limitblocks.analysis.uncarried import uncarried, uncarried_words
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, path_of
 from limitblocks.geometry import Contacts, Selection, find_contacts, select
 from limitblocks.geometry.selection import listed
 from limitblocks.geometry.twisted import Twisted
@@ -93,7 +93,7 @@ def read(
     MissingDependency
         The format needs a package that is not installed.
     """
-    path = Path(file)
+    path = path_of(file)
     made: Any = {"joint": joint, "materials": materials, "supports": supports}
     as_read: Any = {"unit_weight": unit_weight, "units": units, "up": up, "twisted": twisted}
     if is_model_file(path):

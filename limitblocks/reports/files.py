@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from limitblocks.errors import LimitBlocksError
+from limitblocks.errors import LimitBlocksError, path_of
 from limitblocks.io.faults import REPORT
 from limitblocks.reports.markdown import MARK
 from limitblocks.reports.pdf import CREATOR
@@ -28,7 +28,7 @@ def suffix(file: str | Path) -> str:
     LimitBlocksError
         It is none of the formats of reports.
     """
-    ending = Path(file).suffix.lower()
+    ending = path_of(file).suffix.lower()
     ending = ".html" if ending == ".htm" else ending
     if ending not in MARKS:
         known = ", ".join(MARKS)
@@ -40,7 +40,7 @@ def suffix(file: str | Path) -> str:
 
 def save(file: str | Path, data: str | bytes, kind: str, overwrite: bool | None) -> Path:
     """Write a report in the format of suffix `kind` to a file; see :meth:`Report.save`."""
-    path = Path(file)
+    path = path_of(file)
     if overwrite is None and path.is_file():
         if not _ours(path, kind):
             raise LimitBlocksError(

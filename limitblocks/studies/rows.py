@@ -61,7 +61,7 @@ def write_csv(rows: list[dict[str, Any]], file: str | Path, *, overwrite: bool =
     writer = csv.DictWriter(stream, list(rows[0]))
     writer.writeheader()
     writer.writerows(rows)
-    return write(Path(file), stream.getvalue(), overwrite)
+    return write(file, stream.getvalue(), overwrite)
 
 
 def in_short(value: Any) -> str:

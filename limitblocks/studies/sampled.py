@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import read_only
-from limitblocks.errors import ModelError, refuse_no_function
+from limitblocks.errors import ModelError, path_of, refuse_no_function
 from limitblocks.model import Model
 from limitblocks.studies.pool import (
     FAILURES,
@@ -87,7 +87,7 @@ def study(
     checked_settings(analysis, settings)
     checked_workers(workers)
     refuse_no_function(maker)
-    store = Path(file) if file is not None else None
+    store = path_of(file) if file is not None else None
     if store is not None and store.is_dir():
         raise ModelError(f"{store} is a folder; name a file in it")
     names, values = sampled_values(parameters, n, sampler, seed, indices)

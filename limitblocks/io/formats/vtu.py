@@ -13,7 +13,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.drawing.motion import displaced, motion
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, path_of
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.geometry import Block
 from limitblocks.io.colours import parts_of
@@ -60,7 +60,7 @@ def write_vtu(
     ModelError
         The suffix is wrong, or the result belongs to another model.
     """
-    model, path = checked_model(model), Path(file)
+    model, path = checked_model(model), path_of(file)
     refuse_other(model, result)
     wanted = ".pvd" if isinstance(result, LoadPath) else ".vtu"
     if path.suffix.lower() != wanted:

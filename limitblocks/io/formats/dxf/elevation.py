@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 import shapely
 
-from limitblocks.errors import ModelError
+from limitblocks.arrays import real
+from limitblocks.errors import ModelError, path_of, sequence_of
 from limitblocks.geometry.polyhedron import prism
 from limitblocks.io import faults
 from limitblocks.io.formats.dxf import reader as dxf
@@ -63,7 +64,7 @@ def read_drawing(
     MissingDependency
         ezdxf is not installed.
     """
-    path = Path(file)
+    path = path_of(file)
     with faults.named(path):
         contents = elevation(path, thickness, units, layers)
         return imported(contents, units, unit_weight, "z", skip_bad=skip_bad)
@@ -73,11 +74,13 @@ def elevation(
     path: Path, thickness: float, units: str | None = None, layers: str | Sequence[str] | None = None
 ) -> Contents:
     """Return the prisms, `thickness` m deep, over the closed outlines of the drawing at `path`."""
-    if not 0.0 < thickness < np.inf:
+    if not 0.0 < real(thickness) < np.inf:
         raise ModelError(f"thickness is {thickness!r}; expected a number > 0 in m")
+    given = (layers,) if isinstance(layers, str) else layers
+    wanted = None if given is None else sequence_of("layers", given, str)
     drawing = dxf.opened(path)
     with foreign("DXF"):
-        found = _contents(drawing, [layers] if isinstance(layers, str) else layers)
+        found = _contents(drawing, wanted)
     notes = [*dxf.unit_notes(drawing), *found.notes]
     stated = dxf.metres_per_unit(drawing)
     contents = found._replace(metres=stated, notes=notes, up="z", drawn=found.solids)

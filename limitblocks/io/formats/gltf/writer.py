@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from limitblocks.arrays import Array
 from limitblocks.drawing.motion import motion, places
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, path_of
 from limitblocks.geometry import Block
 from limitblocks.io.colours import linear_of
 from limitblocks.io.imported import labels
@@ -65,7 +65,7 @@ def write_animation(model: Model, file: str | Path, result: Any, *, overwrite: b
 
 def animation_path(file: str | Path) -> Path:
     """Return the path of an animation, or raise ModelError if it does not end in .glb."""
-    path = Path(file)
+    path = path_of(file)
     if path.suffix.lower() != ".glb":
         raise ModelError(f"{path}: suffix {path.suffix!r} is not that of an animation; expected .glb")
     return path
