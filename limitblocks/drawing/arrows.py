@@ -34,7 +34,8 @@ class Picture:
         Of the interfaces.
     pairs : tuple of (int, int)
         Places of block i and block j of each interface among the blocks.
-    supports : frozenset of str
+    fixed : tuple of bool
+        Which blocks are supports.
     load_factor : float
     at : Array, shape (m, 3)
         Where the forces act: centres of pressure, (e1, e2) = (-M2, M1) / N off the centroids, or centroids
@@ -53,7 +54,7 @@ class Picture:
     displaced: tuple[Block, ...]
     names: tuple[str, ...]
     pairs: tuple[tuple[int, int], ...]
-    supports: frozenset[str]
+    fixed: tuple[bool, ...]
     load_factor: float
     at: Array
     force: Array
@@ -104,7 +105,7 @@ def picture(model: Model, result: Any, scale: float | None = None) -> Picture:
         moved,
         tuple(interface.name for interface in model.interfaces),
         tuple((i, j) for i, j in ends_of(model.blocks, model.interfaces).tolist()),
-        frozenset(model.supports),
+        tuple((~model.free).tolist()),
         claim.load_factor,
         at,
         force,

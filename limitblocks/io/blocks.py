@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from copy import copy
 from pathlib import Path
 
 from limitblocks.errors import ModelError, path_of, sequence_of
@@ -15,8 +14,7 @@ from limitblocks.io.imported import (
     UnitWeight,
     foreign,
     imported,
-    labels,
-    one_line,
+    plain,
     read_bytes,
 )
 from limitblocks.io.placed import Contents
@@ -113,21 +111,9 @@ def write_blocks(
         raise ModelError(
             f"{path}: suffix {path.suffix!r} is unknown; expected one of {', '.join(formats.WRITTEN)}"
         )
-    fixed = blocks.supports if isinstance(blocks, Model | ImportedBlocks) else ()
-    bodies, supports = tuple(map(plain, bodies)), set(map(one_line, fixed))
-    layers = labels(bodies, supports or None)
-    return write(path, formats.module(path.suffix).encoded(bodies, layers, supports), overwrite)
-
-
-def plain(block: Block) -> Block:
-    """Return a block with its name, layer and material as every format can have them."""
-    words = {key: getattr(block, key) for key in ("name", "layer", "material")}
-    after = {key: one_line(word) for key, word in words.items()}
-    if after == words:
-        return block
-    same = copy(block)
-    same.__dict__.update(after)
-    return same
+    supports = set(blocks.supports if isinstance(blocks, Model | ImportedBlocks) else ())
+    fixed = [block.name in supports for block in bodies]
+    return write(path, formats.module(path.suffix).encoded(plain(bodies, fixed), fixed), overwrite)
 
 
 def is_model_file(path: Path) -> bool:

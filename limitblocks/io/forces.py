@@ -9,8 +9,7 @@ from typing import Any
 from limitblocks.drawing.arrows import picture
 from limitblocks.errors import ModelError, path_of
 from limitblocks.io import formats
-from limitblocks.io.blocks import plain
-from limitblocks.io.imported import one_line
+from limitblocks.io.imported import one_line, plain
 from limitblocks.model import Model, checked_model
 from limitblocks.written import write
 
@@ -58,9 +57,8 @@ def write_forces(
     shown = picture(model, result, scale)
     shown = replace(
         shown,
-        blocks=tuple(map(plain, shown.blocks)),
-        displaced=tuple(map(plain, shown.displaced)),
+        blocks=plain(shown.blocks, shown.fixed),
+        displaced=plain(shown.displaced, shown.fixed) if shown.displaced else (),
         names=tuple(map(one_line, shown.names)),
-        supports=frozenset(map(one_line, shown.supports)),
     )
     return write(path, formats.module(path.suffix).with_forces(shown), overwrite)

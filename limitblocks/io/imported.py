@@ -6,8 +6,9 @@ import logging
 import re
 import warnings
 from collections import Counter
-from collections.abc import Container, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from copy import copy
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -191,13 +192,19 @@ def unique_names(names: Iterable[str]) -> tuple[list[str], list[str]]:
     ]
 
 
-def labels(blocks: Iterable[Block], supports: Container[str] | None) -> dict[str, str]:
-    """Return the layer of each block by its name; for one without, support or block where this is known."""
-    return {
-        block.name: block.layer
-        or ("" if supports is None else "support" if block.name in supports else "block")
-        for block in blocks
-    }
+def plain(blocks: Iterable[Block], fixed: Sequence[bool]) -> tuple[Block, ...]:
+    """Return blocks with their words as every format can have them.
+
+    Where some of them are fixed, the layer of a block without one is support or block.
+    """
+    bare, made = ("block", "support") if any(fixed) else ("", ""), []
+    for block, held in zip(blocks, fixed, strict=True):
+        same = copy(block)
+        words = {key: one_line(getattr(block, key)) for key in ("name", "layer", "material")}
+        groups = tuple(filter(None, map(one_line, block.groups)))
+        same.__dict__.update(words | {"layer": words["layer"] or bare[held], "groups": groups})
+        made.append(same)
+    return tuple(made)
 
 
 def _weights(layers: Mapping[str, str], unit_weight: UnitWeight) -> dict[str, float | None]:

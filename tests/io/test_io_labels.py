@@ -49,6 +49,35 @@ def test_words_of_blocks_are_kept_by_every_format_that_has_them(tmp_path, suffix
     assert words(plain.blocks) == [((), "", "")] * 3
 
 
+@pytest.mark.parametrize("suffix", [".obj", ".glb", ".dxf", ".3dm", ".json"])
+@pytest.mark.parametrize("names", [("a b", "a\nb"), ("a", "a")])
+def test_blocks_whose_names_are_one_in_a_file_keep_their_layers(tmp_path, suffix, names):
+    boxes = [lb.Block.box(name, (1, 1, 1), (2 * k, 0, 0)) for k, name in enumerate(names)]
+    drawn = [box.labelled(layer=layer) for box, layer in zip(boxes, ("north", "south"), strict=True)]
+    found = lb.files.read_blocks(lb.files.write_blocks(drawn, tmp_path / f"a{suffix}"))
+    one = " ".join(names[0].split())
+    assert [(block.name, block.layer) for block in found.blocks] == [(one, "north"), (f"{one} 2", "south")]
+
+
+def test_a_block_whose_name_is_that_of_a_support_in_a_file_is_none(tmp_path):
+    boxes = [lb.Block.box(name, (1, 1, 1), (0, 0, k), 2e4) for k, name in enumerate(["a b", "a\nb"])]
+    model = lb.Model(boxes, ["a b"], lb.find_interfaces(boxes, JOINT), lb.self_weight(), LIVE)
+    bounds = lb.bounds(model)
+    for k, file in enumerate([
+        lb.files.write_blocks(model, tmp_path / "0.json"),
+        lb.files.write_forces(model, tmp_path / "1.json", bounds),
+    ]):  # fmt: skip
+        assert lb.files.read_blocks(file).supports == ("a b",), k
+
+
+def test_names_that_begin_with_a_bracket_are_not_lost_in_rhino(tmp_path):
+    words = {"layer": "[walls]::(north)", "material": "(a)", "groups": ["]g["]}
+    block = lb.Block.box("{1} b", (1, 1, 1), (0, 0, 0)).labelled(**words)
+    (found,) = lb.files.read_blocks(lb.files.write_blocks([block], tmp_path / "a.3dm")).blocks
+    assert (found.name, found.layer, found.material) == ("_1} b", "_walls]::_north)", "_a)")
+    assert found.groups == ("_g[",)
+
+
 def test_ply_has_colours_alone(tmp_path):
     found = lb.files.read_blocks(lb.files.write_blocks(BLOCKS, tmp_path / "a.ply"))
     assert [block.colour for block in found.blocks] == ["", "#b08050", "#1020ff"]

@@ -1,4 +1,4 @@
-"""Formats of other programs, a module each: `contents(path)` reads, `encoded(blocks, layers)` writes.
+"""Formats of other programs, a module each: `contents(path)` reads, `encoded(blocks, fixed)` writes.
 
 Those in FORCES have `with_forces(picture)`, too.
 """

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 from array import array
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 
@@ -157,19 +157,21 @@ def _face(corners: list[str], known: int) -> _Face:
     return tuple(index - 1 if index > 0 else known + index for index in indices)
 
 
-def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:
+def encoded(blocks: Sequence[Block], fixed: Sequence[bool]) -> bytes:
     """Return the OBJ file of blocks: faces, names, every digit; layers as materials or groups."""
     lines = [f"{_OWN}; m, Z up"]
     first, made = 1, any(block.material or block.groups for block in blocks)
     group, paint = "", ""  # of the block before: they last until others are said
     for block in blocks:
-        lines.append(f"o {one_line(block.name)}")
+        lines.append(f"o {block.name}")
         tint = "".join(f" {part / 255.0:.6g}" for part in parts_of(block.colour)) if block.colour else ""
         lines += [f"v {x!r} {y!r} {z!r}{tint}" for x, y, z in block.vertices.tolist()]
-        layer, material = (one_line(word) for word in (layers.get(block.name, ""), block.material))
-        words = [word.replace(" ", _BLANK) for word in (layer or "block", *map(one_line, block.groups))]
+        words = [word.replace(" ", _BLANK) for word in (block.layer or "block", *block.groups)]
         before = group, paint
-        group, paint = " ".join(words) if (layer or block.groups) and made else "", material or layer
+        group, paint = (
+            " ".join(words) if (block.layer or block.groups) and made else "",
+            block.material or block.layer,
+        )
         lines += [f"g {group}".rstrip()] if group or before[0] else []
         lines += [f"usemtl {paint}".rstrip()] if paint or before[1] else []
         lines += ["f " + " ".join(str(first + vertex) for vertex in face) for face in block.faces]

@@ -3,7 +3,7 @@
 # trimesh reads no binary polygons of mixed sizes and writes single precision; meshio reads no face data.
 from __future__ import annotations
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -203,7 +203,7 @@ def _alike(element: _Element, source: _Text | _Binary) -> dict[str, Any] | None:
     return values
 
 
-def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:  # none
+def encoded(blocks: Sequence[Block], fixed: Sequence[bool]) -> bytes:
     """Return the binary PLY file of blocks: faces, every digit, colours of vertices if any, no names."""
     points = np.concatenate([block.vertices for block in blocks])
     starts = np.cumsum([0, *(len(block.vertices) for block in blocks)])

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.io.imported import one_line, read_bytes, refuse_many
+from limitblocks.io.imported import read_bytes, refuse_many
 from limitblocks.io.placed import Contents
 from limitblocks.io.shells import solids
 from limitblocks.io.solid import Solid
@@ -78,11 +78,11 @@ def _corners(body: str, name: str) -> Array:
         raise ModelError(f"solid {name!r}: {error}") from None
 
 
-def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:  # none
+def encoded(blocks: Sequence[Block], fixed: Sequence[bool]) -> bytes:
     """Return the STL file of blocks in text: triangles, names and every digit."""
     lines: list[str] = []
     for block in blocks:
-        lines.append(f"solid {one_line(block.name)}")
+        lines.append(f"solid {block.name}")
         trios = block.vertices[block.triangles]
         normals = np.cross(trios[:, 1] - trios[:, 0], trios[:, 2] - trios[:, 0])
         normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
@@ -90,7 +90,7 @@ def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Contai
             lines.append(f" facet normal {_digits(normal)}\n  outer loop")
             lines += [f"   vertex {_digits(corner)}" for corner in corners]
             lines.append("  endloop\n endfacet")
-        lines.append(f"endsolid {one_line(block.name)}")
+        lines.append(f"endsolid {block.name}")
     return ("\n".join(lines) + "\n").encode()
 
 

@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 from uuid import NAMESPACE_URL, uuid5
 
 from limitblocks.arrays import Array
 from limitblocks.drawing.arrows import Picture
 from limitblocks.geometry import Block
-from limitblocks.io.imported import labels
 
 _FRAME = {"point": [0.0, 0.0, 0.0], "xaxis": [1.0, 0.0, 0.0], "yaxis": [0.0, 1.0, 0.0]}
 
 
-def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:
+def encoded(blocks: Sequence[Block], fixed: Sequence[bool]) -> bytes:
     """Return a compas.datastructures.Assembly whose graph has "block", a mesh, and "is_support" at each node.
 
     The graph is that of an assembly of compas_assembly, with a part beside each block.
     """
-    return _assembly(_graph(blocks, layers, supports))
+    return _assembly(_graph(blocks, fixed))
 
 
 def with_forces(shown: Picture) -> bytes:
@@ -29,7 +28,7 @@ def with_forces(shown: Picture) -> bytes:
     The edge from block i to block j has a list, an entry an interface between them: "name", "point",
     "force" and "moment" (vectors, N and N m, of i on j) and "line", the arrow.
     """
-    graph = _graph(shown.blocks, labels(shown.blocks, shown.supports), shown.supports)
+    graph = _graph(shown.blocks, shown.fixed)
     graph["attributes"] |= {
         "load_factor": shown.load_factor,
         "scale": shown.scale,
@@ -64,11 +63,10 @@ def _interface(shown: Picture, k: int) -> dict[str, Any]:
     )
 
 
-def _graph(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> dict[str, Any]:
+def _graph(blocks: Sequence[Block], fixed: Sequence[bool]) -> dict[str, Any]:
     """Return the data of the graph: a node a block, no edges."""
     nodes = {
-        str(k): _node(k, block, layers.get(block.name, ""), block.name in supports)
-        for k, block in enumerate(blocks)
+        str(k): _node(k, block, support) for k, (block, support) in enumerate(zip(blocks, fixed, strict=True))
     }
     return {
         "attributes": {},
@@ -88,14 +86,14 @@ def _assembly(graph: dict[str, Any]) -> bytes:
     ).encode()
 
 
-def _node(k: int, block: Block, layer: str, support: bool) -> dict[str, Any]:
+def _node(k: int, block: Block, support: bool) -> dict[str, Any]:
     part = {"attributes": {"name": block.name}, "key": k, "frame": _FRAME, "features": []}
     x, y, z = block.centroid.tolist()
     return {
         "part": _thing("datastructures/Part", part, block.name, f"part {k}"),
         "block": _thing("datastructures/Mesh", mesh(block), block.name, f"block {k}"),
         "is_support": support,
-        "layer": layer,
+        "layer": block.layer,
         "material": block.material,
         "groups": list(block.groups),
         "colour": block.colour,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from limitblocks.geometry import Block
@@ -17,19 +17,18 @@ _LONGEST = 255  # of names
 _COLOURS = (7, 1, 3, 5, 4, 6, 2, 30)  # of layers, in the colour index; blocks have none of it
 
 
-def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:
+def encoded(blocks: Sequence[Block], fixed: Sequence[bool]) -> bytes:
     """Return the drawing; the name of each block is kept beside its mesh, for the reader of this library."""
     drawing = package("ezdxf", "DXF").new("R2010", units=_METRES)
     drawing.appids.add(APPLICATION)
-    layer_of = _distinct(layers.get(block.name, "") for block in blocks)
-    names = {block.name: layer_of[layers.get(block.name, "")] for block in blocks}
+    layer_of = _distinct(block.layer for block in blocks)
     group_of = _distinct(name for block in blocks for name in block.groups)
-    for k, layer in enumerate(dict.fromkeys(names.values())):
+    for k, layer in enumerate(layer_of.values()):
         if layer not in drawing.layers:
             drawing.layers.add(layer, color=_COLOURS[k % len(_COLOURS)])
     space, groups = drawing.modelspace(), dict[str, list[Any]]()
     for block in blocks:
-        mesh = space.add_mesh({"layer": names[block.name]})
+        mesh = space.add_mesh({"layer": layer_of[block.layer]})
         mesh.vertices = block.vertices.tolist()
         mesh.faces = block.faces
         if block.colour:

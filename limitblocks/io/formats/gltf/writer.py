@@ -5,7 +5,7 @@ trimesh writes no animations; see the glTF 2.0 specification, sections 3.6 (data
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -18,7 +18,7 @@ from limitblocks.drawing.motion import motion, places
 from limitblocks.errors import ModelError, path_of
 from limitblocks.geometry import Block
 from limitblocks.io.colours import linear_of
-from limitblocks.io.imported import labels
+from limitblocks.io.imported import plain
 from limitblocks.io.packages import package
 from limitblocks.io.placed import Z_UP
 from limitblocks.model import Model, checked_model
@@ -26,7 +26,6 @@ from limitblocks.written import write
 
 _FLOAT = 5126  # component type
 _COLOURS = {"support": (0.35, 0.37, 0.4, 1.0), "block": (0.76, 0.68, 0.56, 1.0)}
-_PLAIN = (0.8, 0.8, 0.8, 1.0)
 _SECONDS = 2.0  # length of the animation
 
 
@@ -57,10 +56,9 @@ def write_animation(model: Model, file: str | Path, result: Any, *, overwrite: b
     """
     model, path = checked_model(model), animation_path(file)
     states = places(model, result) if hasattr(result, "points") else motion(model, result).states
-    supports = set(model.supports)
-    layers = labels(model.blocks, supports)
+    fixed = (~model.free).tolist()
     still = np.zeros_like(states[:1])
-    return write(path, encoded(model.blocks, layers, supports, np.concatenate([still, states])), overwrite)
+    return write(path, encoded(plain(model.blocks, fixed), fixed, np.concatenate([still, states])), overwrite)
 
 
 def animation_path(file: str | Path) -> Path:
@@ -71,16 +69,12 @@ def animation_path(file: str | Path) -> Path:
     return path
 
 
-def encoded(
-    blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str], states: Array | None = None
-) -> bytes:
+def encoded(blocks: Sequence[Block], fixed: Sequence[bool], states: Array | None = None) -> bytes:
     """Return the GLB file of blocks, with an animation through the displacements `states` (k, n, 6)."""
     trimesh, gltf = package("trimesh", "GLB"), package("trimesh.exchange.gltf", "GLB")
     scene = trimesh.Scene()
-    for k, block in enumerate(blocks):
-        visual = trimesh.visual.TextureVisuals(
-            material=_material(trimesh, block, layers, block.name in supports)
-        )
+    for k, (block, support) in enumerate(zip(blocks, fixed, strict=True)):
+        visual = trimesh.visual.TextureVisuals(material=_material(trimesh, block, support))
         points = (block.vertices - block.centroid) @ Z_UP
         mesh = trimesh.Trimesh(points, block.triangles, process=False, visual=visual)
         scene.add_geometry(mesh, node_name=str(k), geom_name=str(k))
@@ -93,7 +87,7 @@ def encoded(
             node |= {"name": block.name, "translation": ((block.centroid - origin) @ Z_UP).tolist()}
             mesh["name"] = block.name
             # what the material alone would not tell; its colour is for show where the block has none
-            extras: dict[str, Any] = {"layer": layers.get(block.name, "")} if block.material else {}
+            extras: dict[str, Any] = {"layer": block.layer} if block.material else {}
             if block.groups:
                 extras["groups"] = list(block.groups)
             node["extras"] = extras | {"colour": block.colour}
@@ -107,10 +101,10 @@ def encoded(
     return bytes(gltf.export_glb(scene, include_normals=False, buffer_postprocessor=finish))
 
 
-def _material(trimesh: ModuleType, block: Block, layers: Mapping[str, str], support: bool) -> Any:
-    shown = _COLOURS["support" if support else "block"] if layers else _PLAIN
+def _material(trimesh: ModuleType, block: Block, support: bool) -> Any:
+    shown = _COLOURS["support" if support else "block"]
     return trimesh.visual.material.PBRMaterial(
-        name=block.material or layers.get(block.name) or None,
+        name=block.material or block.layer or None,
         baseColorFactor=(*linear_of(block.colour), 1.0) if block.colour else shown,
         metallicFactor=0.0,
         roughnessFactor=0.9,

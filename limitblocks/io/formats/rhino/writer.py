@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping, Sequence
+import re
+from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import ModuleType
@@ -19,11 +20,11 @@ _VERSION = 7  # of Rhino, that can open the file
 _COLOURS = {"blocks": (150, 140, 120, 255), "displaced": (213, 94, 0, 255), "forces": (0, 114, 178, 255)}
 
 
-def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:
+def encoded(blocks: Sequence[Block], fixed: Sequence[bool]) -> bytes:
     """Return the file; faces of more than four sides, or of blocks that are not convex, become triangles."""
     drawing = _Drawing()
     for block in blocks:
-        drawing.block(block, layers.get(block.name, "") or "block")
+        drawing.block(block, block.layer or "block")
     return drawing.encoded()
 
 
@@ -97,7 +98,7 @@ class _Drawing:
     def attributes(self, name: str, layer: str) -> Any:
         """Return the attributes of an object with a name on a layer."""
         attributes = self.rhino3dm.ObjectAttributes()
-        attributes.Name = name
+        attributes.Name = _valid(name)
         attributes.LayerIndex = self.layer(layer)
         return attributes
 
@@ -119,7 +120,7 @@ class _Drawing:
         if path not in self.layers:
             above, _, name = path.rpartition("::")
             layer = self.rhino3dm.Layer()
-            layer.Name = name
+            layer.Name = _valid(name)
             if above:
                 layer.ParentLayerId = self.model.Layers[self.layer(above)].Id
             self.layers[path] = self.model.Layers.Add(layer)
@@ -129,7 +130,7 @@ class _Drawing:
         """Return the number of the group with this name, made where there is none."""
         if name not in self.groups:
             group = self.rhino3dm.Group()
-            group.Name = name
+            group.Name = _valid(name)
             self.groups[name] = len(self.groups)
             self.model.Groups.Add(group)
         return self.groups[name]
@@ -138,9 +139,14 @@ class _Drawing:
         """Return the number of the material with this name, made where there is none."""
         if name not in self.materials:
             material = self.rhino3dm.Material()
-            material.Name = name
+            material.Name = _valid(name)
             self.materials[name] = self.model.Materials.Add(material)
         return self.materials[name]
+
+
+def _valid(name: str) -> str:
+    """Return a name without a bracket as its first letter: rhino3dm drops such names without a word."""
+    return re.sub(r"^[][(){}]", "_", name)
 
 
 def _mesh(rhino3dm: ModuleType, block: Block) -> Any:
