@@ -11,6 +11,7 @@ import shapely
 
 from limitblocks.arrays import Array
 from limitblocks.geometry import Block
+from limitblocks.geometry.accuracy import COARSEST, millimetres
 from limitblocks.geometry.neighbours import bounds_of
 from limitblocks.shown import many
 
@@ -97,6 +98,27 @@ def of_stated(boxes: Boxes, metres: float) -> str:
     return (
         f"states a unit of {metres:g} m, in which its blocks are {length:.4g} m long (median), in {name} "
         f"{_CANDIDATES[name] * boxes.length:.2g} m: if it is in {name}, say units={name!r} (--units {name})"
+    )
+
+
+def of_single_precision(bodies: Sequence[Array], length: float, metres: float) -> str:
+    """Return the warning of coordinates in single precision too far from the origin for blocks of a `length`.
+
+    Single precision has 24 binary digits (IEEE 754-2019, Table 3.5), of which coordinates that are drawn on a
+    grid leave the last ones 0. `bodies` have vertices (n, 3), in units of `metres` m.
+    """
+    points = np.concatenate(bodies)
+    steps = np.spacing(np.abs(points).astype(np.float32)).astype(np.float64)
+    coarsest = steps == steps.max()
+    step = float(steps.max())
+    rounded = (points.astype(np.float32) == points).all() and (points[coarsest] % (2.0 * step) != 0.0).any()
+    if not rounded or step / np.sqrt(12.0) <= COARSEST * length:  # the standard deviation of what is rounded
+        return ""
+    return (
+        f"has coordinates in single precision, which go in steps of {millimetres(metres * step)} "
+        f"{metres * np.abs(points).max():.3g} m from the origin, for blocks {metres * length:.3g} m long: "
+        "the load factor may be off by more than 1 %; move the structure to the origin in the program that "
+        "wrote it, and write it again"
     )
 
 

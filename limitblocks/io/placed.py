@@ -91,6 +91,8 @@ def frame(contents: Contents, units: str | None, up: str | None) -> Frame:
         warnings.append(
             f"says that its unit is {stated}: taken in {units}, as asked, the structure is {size}"
         )
+    coarse = guesses.of_single_precision([points[k] for k in sound], boxes.length, per_unit) if boxes else ""
+    warnings += [coarse] * bool(coarse)
     why = guesses.tilted(boxes, axis) if boxes and up is None else ""
     if why and contents.up is None:
         axis = "y"

@@ -16,6 +16,7 @@ ARCH = lb.structures.arch(JOINT, radius=5.0, thickness=0.8, voussoirs=11)
 #: Relative tolerance of areas: GLB and binary STL hold numbers in single precision, by their standards.
 PRECISION = {".obj": 1e-9, ".stl": 1e-9, ".ply": 1e-9, ".glb": 1e-6}
 DIRECTION = lb.mass_proportional((1.0, 0.0, 0.0))
+X = np.array([1.0, 0.0, 0.0])
 
 
 @pytest.mark.parametrize("suffix", [".obj", ".stl", ".ply", ".glb"])
@@ -236,3 +237,27 @@ def test_nothing_is_overwritten_without_being_asked(tmp_path):
         lb.files.write_blocks(box, tmp_path / "a.doc")
     with pytest.raises(lb.ModelError, match="no blocks"):
         lb.files.write_blocks([], tmp_path / "b.obj")
+
+
+def written_by_another(path, blocks, shift):
+    """A binary STL file, single precision by its format, of blocks that far from the origin along X."""
+    meshes = [trimesh.Trimesh(shift * X + one.vertices, one.triangles, process=False) for one in blocks]
+    trimesh.util.concatenate(meshes).export(path)
+    return path
+
+
+@pytest.mark.parametrize(("shift", "step"), [(0.0, ""), (1e4, ""), (1e5, "7.8 mm"), (5e5, "31 mm")])
+def test_single_precision_too_far_from_the_origin_is_warned_of(tmp_path, shift, step):
+    """Between 2^k and 2^(k + 1) it goes in steps of 2^(k - 23): 1/128 m at 1e5 m, 1/32 m at 5e5 m."""
+    stones = [lb.Block.box(f"{k}", (0.4, 0.2, 0.2), (0.37 * k, 0.0, 0.1)) for k in range(3)]
+    found = lb.files.read_blocks(written_by_another(tmp_path / "a.stl", stones, shift))
+    told = [line for line in found.guesses if "single precision" in line]
+    assert bool(told) == bool(step)
+    assert not step or f"in steps of {step} {shift:.3g} m from the origin" in told[0]
+
+
+def test_coordinates_on_a_grid_far_from_the_origin_are_not_taken_as_rounded(tmp_path):
+    """Multiples of 1/4 m have digits to spare in single precision 5e5 m from the origin."""
+    stones = [lb.Block.box(f"{k}", (0.5, 0.25, 0.25), (5e5 + 0.5 * k, 0.0, 0.125)) for k in range(3)]
+    found = lb.files.read_blocks(lb.files.write_blocks(stones, tmp_path / "a.obj"))
+    assert not [line for line in found.guesses if "precision" in line]
