@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from plotted import arch, bounds, corner, inked, path, rocking
 
 import limitblocks as lb
+from limitblocks.joints.rows import hinging, stacked
 from limitblocks.joints.torsion import rectangle_torsion_constant
 
 L1, L2, FRICTION = 0.15, 0.10, 0.6
@@ -81,6 +82,17 @@ def test_crushing_parabola():
     assert ax.get_xlabel() == "$N$ (N)"
 
 
+def test_cohesion_of_a_large_area_bounds_the_curve_without_a_normal_force_too():
+    cohesion, side = 2e6, 5.0  # Pa, m
+    square = lb.joints.interface([(0, 0), (side, 0), (side, side), (0, side)], JOINT)
+    joint = lb.OrdunaLourenco(friction=FRICTION, cohesion=cohesion)
+    strength = side**2 * cohesion
+    ax = lb.plots.interaction(joint, square, "N", "V1", N=-1.0, directions=4)
+    assert contains(curve(ax), [(0.0, strength), (0.0, -strength), (-1.0, strength + FRICTION)])
+    ax = lb.plots.interaction(joint, square, "V1", "V2", N=-1.0, directions=4)
+    assert np.isclose(curve(ax).max(), strength + FRICTION)
+
+
 def test_stress_states_keep_their_normal_force_on_a_curve_over_it():
     Q = [(0.0, 0.0, -3.0, 0.1, 0.0, 0.0), (0.0, 0.0, -5.0, -0.2, 0.0, 0.0)]
     ax = lb.plots.interaction(JOINT, RECTANGLE, "N", "M1", N=-8.0, stress_resultants=Q)
@@ -102,9 +114,20 @@ def test_point_contacts_have_a_curve_too():
     assert np.allclose(reach, (FRICTION, FRICTION * np.hypot(L1, L2)), rtol=1e-6)
 
 
+@dataclasses.dataclass(frozen=True, repr=False)
+class Unsliding(lb.joints.Queries):
+    """Hinging alone: nothing limits the shear."""
+
+    friction: float
+
+    def yield_rows(self, polygons, stress_unit=1.0):
+        return stacked([hinging(polygons)], np.abs(polygons).max(axis=1), self.friction)
+
+
 WEAK = lb.OrdunaLourenco(friction=FRICTION, cohesion=1e3)
 TRIANGLE = lb.joints.interface([(0, 0), (0.3, 0), (0, 0.2)], JOINT)
 STATE = [(0.0, 0.0, -3.0, 0.0, 0.0, 0.0)]
+STATES = [(0.0, 0.0, -2.0, 0.0, 0.0, 0.0), *STATE]
 
 
 @pytest.mark.parametrize(
@@ -116,6 +139,14 @@ STATE = [(0.0, 0.0, -3.0, 0.0, 0.0, 0.0)]
         (JOINT, RECTANGLE, {"N": 5.0}, "N is 5.0, expected a compressive force"),
         (WEAK, RECTANGLE, {}, "N is missing"),
         (WEAK, RECTANGLE, {"N": -2.0, "stress_resultants": STATE}, "N = -3 N, but the curve is for N = -2 N"),
+        (
+            WEAK,
+            RECTANGLE,
+            {"N": -2.0, "stress_resultants": STATES},
+            "N = -3 N, but the curve is for N = -2 N",
+        ),
+        (Unsliding(FRICTION), RECTANGLE, {"y": "M1"}, "carries V1 without limit"),
+        (Unsliding(FRICTION), RECTANGLE, {"y": "N", "N": -1.0}, "carries V1 without limit"),
         (JOINT, RECTANGLE, {"stress_resultants": [(1.0, 2.0)]}, r"shape \(1, 2\), expected \(k, 6\)"),
         (JOINT, RECTANGLE, {"stress_resultants": np.zeros((1, 6))}, "expected compression"),
         (JOINT, TRIANGLE, {"exact": True}, "symmetric about both"),
