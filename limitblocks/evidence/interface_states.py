@@ -94,6 +94,7 @@ class InterfaceStates(Tabular):
     def rows(self) -> list[dict[str, Any]]:
         """Return a row for each interface: SI units, vectors by component."""
         parts = {
+            "centroid_": (tuple("XYZ"), self.centroid),  # tells the pieces of an area apart
             "": (("V1", "V2", "N", "M1", "M2", "T"), self.stress_resultants),
             "force_": (tuple("XYZ"), self.force),
             "pressure_": (tuple("XYZ"), self.centre_of_pressure),

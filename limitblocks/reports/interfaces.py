@@ -120,6 +120,7 @@ def interface_rows(model: Model, result: Any) -> list[dict[str, Any]]:
         {
             "name": name,
             "joint": words[interface.joint],
+            "centroid": interface.centroid.round(6).tolist(),
             "state": states.state[k],
             "utilisation": float(states.utilisation[k]),
             "active_modes": list(states.active_modes[k]),

@@ -211,6 +211,8 @@ def test_csv_holds_every_interface(page, model, results):
     assert np.allclose(N, results[0].stress_resultants[:, 2], rtol=1e-5, atol=1e-2)
     centres = [[float(row[f"centre of pressure {axis} (m)"]) for axis in "XYZ"] for row in rows]
     assert np.allclose(centres, lb.interface_states(model, results[0]).centre_of_pressure, atol=1e-5)
+    places = [[float(row[f"centroid {axis} (m)"]) for axis in "XYZ"] for row in rows]
+    assert np.allclose(places, [interface.centroid for interface in model.interfaces], atol=1e-5)
 
 
 def test_picture_is_saved_as_png(page):

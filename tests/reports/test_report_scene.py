@@ -209,9 +209,12 @@ def test_pieces_of_a_joint_are_told_apart_by_where_they_are():
     ground = lb.Block.box("ground", (3.0, 1.0, 0.2), (0.0, 0.0, -0.1))
     stones = [ground, lb.Block.prism("stone", outline, (-0.2, 0.2), 20e3)]
     model = model_of(stones, ["ground"], lb.PointContact(0.2))
-    table = active_interfaces(model, lb.bounds(model))
-    names = sorted(row[0].text for row in table.rows)
+    bounds = lb.bounds(model)
+    names = sorted(row[0].text for row in active_interfaces(model, bounds).rows)
     assert names == ["ground|stone at (-0.5, 0, 0) m", "ground|stone at (0.5, 0, 0) m"]
+    assert sorted(row["centroid"][0] for row in interface_rows(model, bounds)) == [-0.5, 0.5]
+    rows = interface_states(model, bounds).rows()
+    assert np.allclose(sorted(row["centroid_X"] for row in rows), [-0.5, 0.5])
 
 
 def test_viewer_uses_only_what_its_bundle_has():

@@ -32,19 +32,21 @@ function csvText(text) {
 }
 
 const CSV_HEADS =
-  "interface,block i,block j,joint,state,utilisation,V1 (N),V2 (N),N (N),M1 (N m),M2 (N m),T (N m)," +
+  "interface,block i,block j,joint,centroid X (m),centroid Y (m),centroid Z (m),state,utilisation,V1 (N),V2 (N),N (N),M1 (N m),M2 (N m),T (N m)," +
   "centre of pressure X (m),centre of pressure Y (m),centre of pressure Z (m),active modes";
 
 function interfacesCsv(scene, step) {
   const number = (value) => (Number.isFinite(value) ? String(Number(value.toPrecision(6))) : "");
   const lines = scene.interfaces.map((one, k) => {
     const centre = [0, 1, 2].map((a) => one.centroid[a] + step.centres[3 * k + a]);
+    const at = (point) => globally(scene, point).map((value) => (Number.isFinite(value) ? String(value) : ""));
     const modes = step.modes[k].map((mode) => scene.modeNames[mode]).join("; ");
     return [
       ...[one.name, scene.blocks[one.i].name, scene.blocks[one.j].name, one.joint].map(csvText),
+      ...at(one.centroid),
       csvText(scene.stateNames[step.states[k]]),
       ...[step.utilisation[k], ...step.stresses.subarray(6 * k, 6 * k + 6)].map(number),
-      ...globally(scene, centre).map((value) => (Number.isFinite(value) ? String(value) : "")),
+      ...at(centre),
       csvText(modes),
     ].join(",");
   });
