@@ -19,7 +19,7 @@ _LEFT, _RIGHT, _ABOVE, _BELOW = 95.0, 15.0, 40.0, 75.0  # room around a view for
 _OFF, _TICK = 30.0, 7.0  # distance of a line of dimensions from the view, and half the length of its ends
 _TITLE = 220.0  # from the middle of a view to that of the next, so that their titles do not meet
 _TALLEST = 560.0  # of the views, user units
-_FINE = 3  # decimals, m, within which two polygons on the page are one
+_FINE = 1e-4  # of the size of the model, a tenth of a user unit: polygons as near as that are one
 
 
 class _View(NamedTuple):
@@ -76,14 +76,15 @@ def length(metres: float) -> str:
 def _view(model: Model, plane: str) -> _View:
     view, supports = PLANES[plane], set(model.supports)
     order = sorted(model.blocks, key=lambda block: float((block.vertices @ view[2]).max()))
+    corners = [block.vertices for block in model.blocks]
+    grid = _FINE * float(np.ptp(np.concatenate(corners), axis=0).max())
     # of courses or columns one behind the other, one drawing says enough: that of the nearest
     seen: dict[tuple[tuple[float, ...], ...], tuple[Array, bool]] = {}
     for block, hull in zip(order, hulls([block.vertices for block in order], view), strict=True):
-        key = tuple(sorted(map(tuple, (hull.round(_FINE) + 0.0).tolist())))
+        key = tuple(sorted(map(tuple, ((hull / grid).round() + 0.0).tolist())))
         seen.pop(key, None)
         seen[key] = hull, block.name in supports
     anchors = np.array([line.anchors for line in tie_lines(model)]).reshape(-1, 2, 3)
-    corners = [block.vertices for block in model.blocks]
     points = np.concatenate([*corners, anchors.reshape(-1, 3)]) @ view[:2].T
     free = np.concatenate([block.vertices for block in model.free_blocks]) @ view[:2].T
     ends = points.min(axis=0), points.max(axis=0), free.min(axis=0), free.max(axis=0)
