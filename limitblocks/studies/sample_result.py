@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from limitblocks.arrays import Array, real, reals
 from limitblocks.errors import ModelError, SolveError
+from limitblocks.evidence.residuals import OF_BOUNDS
 from limitblocks.shown import counted, many
 from limitblocks.studies.results import FLOWS, unanswered
 from limitblocks.studies.rows import Rows, in_short
@@ -111,27 +112,34 @@ class SampledStudy(Rows):
         return {mode: count / sum(counts.values()) for mode, count in counts.items()}
 
     def sobol(self) -> dict[str, tuple[float, float]]:
-        """Return first-order and total Sobol index of each parameter (Saltelli et al. 2010; scipy.stats).
+        """Return first-order and total Sobol index of each parameter.
+
+        Estimators (b) and (f) of Table 2 of Saltelli et al. (2010), Computer Physics Communications 181.
+
 
         Raises
         ------
         ModelError
             If the study was not sampled for indices.
         SolveError
-            If a row has no finite load factor.
+            If a row has no finite load factor, or all are one but for the tolerance of bounds: the indices
+            are shares of their variance.
         """
-        from scipy.stats import sobol_indices
-
         if not self.indices:
             raise ModelError("the study was not sampled for Sobol indices; use study(..., indices=True)")
-        n, k = self.samples, len(self.names)
-        if not np.isfinite(self.load_factors).all():
+        f = self.load_factors.reshape(-1, self.samples)
+        if not np.isfinite(f).all():
             raise SolveError("a sample has no load factor; Sobol indices need all of them")
-        f = self.load_factors.reshape(k + 2, n)
-        func: Mapping[str, Array] = {"f_A": f[0][None], "f_B": f[1][None], "f_AB": f[2:][:, None]}
-        found = sobol_indices(func=func, n=n)  # type: ignore[arg-type] # the stubs ask for a plain dict
-        pairs = zip(np.ravel(found.first_order).tolist(), np.ravel(found.total_order).tolist(), strict=True)
-        return dict(zip(self.names, pairs, strict=True))
+        if np.ptp(f) <= OF_BOUNDS * np.abs(f).max():
+            raise SolveError(
+                f"all load factors are {f[0, 0]:.6g}: no parameter changes them, and there is no variance of "
+                "which Sobol indices are shares"
+            )
+        A, B, *mixed = f - f[:2].mean()
+        AB, variance = np.array(mixed), f[:2].var()  # a row of AB is A with one parameter of B
+        first = (B * (AB - A)).mean(axis=1) / variance
+        total = ((A - AB) ** 2).mean(axis=1) / (2.0 * variance)
+        return dict(zip(self.names, zip(first.tolist(), total.tolist(), strict=True), strict=True))
 
     def rows(self) -> list[dict[str, Any]]:
         """Return a row for each analysis, plain numbers and text."""

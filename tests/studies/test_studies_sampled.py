@@ -10,6 +10,7 @@ import limitblocks as lb
 from limitblocks.studies import SampledStudy, sampled
 from limitblocks.studies.pool import failed
 from limitblocks.studies.results import unanswered
+from limitblocks.studies.samples import sampled_values
 
 
 def block(friction=0.5, width=1.0):
@@ -229,17 +230,42 @@ def test_a_study_without_an_answer_prints():
     )
 
 
+def test_rows_for_sobol_indices_are_those_of_the_matrices():
+    """A, B, and A with one column of B."""
+    found = lb.study(product, {"friction": (0.2, 0.6), "scale": (0.5, 2.5)}, 2, indices=True, seed=4)
+    A, B, *mixed = found.values.reshape(4, 2, 2)
+    assert np.array_equal(mixed, [np.column_stack([B[:, 0], A[:, 1]]), np.column_stack([A[:, 0], B[:, 1]])])
+    assert found.load_factors == pytest.approx(found.values.prod(axis=1), rel=1e-6)
+
+
+def of_law(parameters, law, n=1024):
+    """A study whose load factors are a law of the values."""
+    names, values = sampled_values(parameters, n, "sobol", 4, True)
+    words = {"modes": ("",) * len(values), "errors": ("",) * len(values)}
+    return SampledStudy("bounds", names, values, law(values), samples=n, indices=True, **words)
+
+
 def test_sobol_indices_of_a_product():
     """f = a b with independent a, b: S_a = Va mb^2 / (Va mb^2 + Vb ma^2 + Va Vb)."""
-    found = lb.study(product, {"friction": (0.2, 0.6), "scale": (0.5, 2.5)}, 64, indices=True, seed=4)
-    assert found.load_factors == pytest.approx(found.values.prod(axis=1), rel=1e-6)
+    found = of_law({"friction": (0.2, 0.6), "scale": (0.5, 2.5)}, lambda values: values.prod(axis=1))
     (ma, va), (mb, vb) = (0.4, 0.4**2 / 12), (1.5, 4 / 12)
     total = va * mb**2 + vb * ma**2 + va * vb
     indices = found.sobol()
     assert indices["friction"] == pytest.approx(
-        (va * mb**2 / total, (va * mb**2 + va * vb) / total), abs=0.06
+        (va * mb**2 / total, (va * mb**2 + va * vb) / total), abs=0.01
     )
-    assert indices["scale"] == pytest.approx((vb * ma**2 / total, (vb * ma**2 + va * vb) / total), abs=0.06)
+    assert indices["scale"] == pytest.approx((vb * ma**2 / total, (vb * ma**2 + va * vb) / total), abs=0.01)
+
+
+def test_a_single_parameter_has_all_of_the_variance():
+    found = of_law({"friction": (0.2, 0.6)}, lambda values: values[:, 0])
+    assert found.sobol() == {"friction": pytest.approx((1.0, 1.0), abs=0.01)}
+
+
+def test_load_factors_that_are_one_but_for_rounding_have_no_indices():
+    found = of_law({"friction": (0.2, 0.6)}, lambda values: 0.5 + 1e-11 * values[:, 0])
+    with pytest.raises(lb.SolveError, match=r"all load factors are 0\.5: no parameter changes them"):
+        found.sobol()
 
 
 def test_table(tmp_path):
