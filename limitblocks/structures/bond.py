@@ -13,7 +13,8 @@ from limitblocks.geometry import Block
 from limitblocks.structures.build import refuse, refuse_fewer, refuse_many, refuse_not_positive, span_box
 
 SAME = 1e-6  # of a block: lengths closer than this are equal
-HORIZONTAL_LENGTHS = ("length", "width", "return_length", "buttress_length")  # on the grid of half blocks
+#: On the grid of half blocks.
+HORIZONTAL_LENGTHS = ("length", "width", "return_length", "buttress_length", "bearing")
 
 
 class Opening(NamedTuple):
@@ -145,17 +146,13 @@ class Bond(NamedTuple):
 def refuse_wall(courses: int, block_length: float, **lengths: float) -> None:
     """Raise ModelError unless all is positive and the horizontal lengths are multiples of half a block."""
     refuse_not_positive(block_length=block_length, **lengths)
-    refuse_off_grid(block_length, **{name: lengths[name] for name in HORIZONTAL_LENGTHS if name in lengths})
-    refuse_fewer(1, courses=courses)
-
-
-def refuse_off_grid(block_length: float, **lengths: float) -> None:
-    """Raise ModelError naming all lengths that are no positive multiples of half a block."""
     half = block_length / 2
-    refuse_many(block_length, **lengths)
+    on_grid = {name: lengths[name] for name in HORIZONTAL_LENGTHS if name in lengths}
+    refuse_many(block_length, **on_grid)
     refuse(f"{name.replace('_', ' ')} {value:g} m is not a positive multiple of {half:g} m, half a block"
-           for name, value in lengths.items()
+           for name, value in on_grid.items()
            if not multiple(value, half) or value < half / 2)  # fmt: skip
+    refuse_fewer(1, courses=courses)
 
 
 def multiple(value: float, unit: float) -> bool:

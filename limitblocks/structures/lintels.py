@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from limitblocks.arrays import real
 from limitblocks.joints import Joint
 from limitblocks.model import Model
-from limitblocks.structures.bond import Bond, Piece, refuse_off_grid
+from limitblocks.structures.bond import Bond, Piece, refuse_wall
 from limitblocks.structures.build import (
     HORIZONTAL,
     UNIT_WEIGHT,
@@ -16,6 +16,7 @@ from limitblocks.structures.build import (
     pier,
     plain_numbers,
     refuse,
+    refuse_fewer,
     refuse_not_positive,
     span_box,
 )
@@ -56,7 +57,7 @@ def portal(
     refuse_not_positive(
         span=span, pier_width=pier_width, block_height=block_height, lintel_height=lintel_height, depth=depth
     )
-    refuse([] if pier_blocks >= 1 else [f"pier blocks is {pier_blocks!r}, expected at least 1"])
+    refuse_fewer(1, pier_blocks=pier_blocks)
     end, top, y = span + 2 * pier_width, pier_blocks * block_height, (-depth / 2, depth / 2)
     left = pier("left pier", (0.0, pier_width), y, pier_blocks, block_height, unit_weight)
     right = pier("right pier", (end - pier_width, end), y, pier_blocks, block_height, unit_weight)
@@ -107,11 +108,10 @@ def eccentric_lintel(
     direction : sequence of float
         Direction of the live load, which is the weight; default: out of plane.
     """
-    refuse_not_positive(block_length=block_length, block_height=block_height, thickness=thickness)
-    refuse_not_positive(overhang=overhang, load_length=load_length, load_height=load_height)
-    refuse_not_positive(length=length, bearing=bearing)
-    refuse_off_grid(block_length, length=length, bearing=bearing)
-    problems = [] if courses >= 1 else [f"courses is {courses!r}, expected at least one"]
+    refuse_wall(courses, block_length, length=length, bearing=bearing, overhang=overhang,
+                load_length=load_length, load_height=load_height, block_height=block_height,
+                thickness=thickness)  # fmt: skip
+    problems = []
     if bearing >= length:
         problems.append(f"bearing is {bearing!r}, expected less than the length {length!r}")
     if load_length > overhang:

@@ -89,7 +89,7 @@ class Ring(NamedTuple):
         facets: int | None,
     ) -> Ring:
         """Return the ring about a centreline, or raise ModelError naming what makes it impossible."""
-        _refuse_ring(thickness, voussoirs, stereotomy, 1 if facets is None else facets)
+        _refuse_ring(voussoirs, stereotomy, 1 if facets is None else facets)
         half = thickness / 2
         inside = profile.joint_angles(voussoirs, springing, thickness)
         outside = inside.copy()
@@ -139,7 +139,7 @@ def circular(
 ) -> Ring:
     """Return the ring about an arc of a circle; `embrace` is the angle between its springings, rad."""
     refuse_not_positive(radius=radius, thickness=thickness, embrace=embrace)
-    problems = [] if voussoirs >= 2 else [f"voussoirs is {voussoirs!r}, expected at least 2"]
+    problems = []
     if thickness >= 2 * radius:
         problems.append(f"thickness is {thickness!r}, expected less than twice the radius {radius!r}")
     if embrace > np.pi:
@@ -165,7 +165,7 @@ def pointed(
     problems = []
     if rise <= span / 2:
         problems.append(f"rise is {rise!r}, expected more than half the span {span!r}; else it is no point")
-    if voussoirs < 2 or voussoirs % 2:
+    if voussoirs % 2:
         problems.append(f"voussoirs is {voussoirs!r}, expected an even number: there is a joint at the apex")
     if thickness >= span:
         problems.append(f"thickness is {thickness!r}, expected less than the span {span!r}")
@@ -193,8 +193,7 @@ def _sides(ends: Array, joints: Array) -> int:
     return int(np.ceil(np.ptp(ends, axis=1).max() / np.diff(joints).max() - 1e-9))
 
 
-def _refuse_ring(thickness: float, voussoirs: int, stereotomy: str, facets: int) -> None:
-    refuse_not_positive(thickness=thickness)
+def _refuse_ring(voussoirs: int, stereotomy: str, facets: int) -> None:
     refuse_fewer(2, voussoirs=voussoirs)
     refuse_fewer(1, facets=facets)
     if stereotomy not in ("radial", "vertical"):

@@ -63,7 +63,8 @@ def stair(
         Direction of the live load, which is the weight.
     """
     refuse_not_positive(length=length, width=width, rise=rise, newel=newel)
-    problems = [] if treads >= 1 else [f"treads is {treads!r}, expected at least one"]
+    refuse_fewer(1, treads=treads)
+    problems = []
     if newel >= length:
         problems.append(f"newel is {newel!r}, expected less than the length {length!r}")
     if not np.isfinite(real(turn)):

@@ -116,7 +116,6 @@ class SampledStudy(Rows):
 
         Estimators (b) and (f) of Table 2 of Saltelli et al. (2010), Computer Physics Communications 181.
 
-
         Raises
         ------
         ModelError
