@@ -174,6 +174,22 @@ def test_hinge_on_an_oblique_side():
         assert torsion_bending(TRIANGLE, 0.7, -5.0, -5 * e[1], 5 * e[0]) == pytest.approx(expected, abs=1e-7)
 
 
+@pytest.mark.parametrize("beyond", [0.0, 5e-10])
+@pytest.mark.parametrize("slender", [1.0, 1e-6])
+def test_a_hinge_is_one_whatever_rounding_says(slender, beyond):
+    """Eq. (22), with a corner of the polygon given twice, and on a strip a micrometre wide."""
+    rectangle = RECTANGLE[[0, 1, 1, 2, 3]] * [1.0, slender]
+    l2 = L2 * slender
+    N = -np.arange(1.0, 30.0) / 7.0
+    hinge = 0.6 * -N * L1 / 2
+    assert np.allclose(
+        rectangle_torsion_bending(L1, l2, 0.6, N, -N * l2 * (1 + beyond), 0.0), hinge, rtol=1e-8
+    )
+    assert np.allclose(
+        torsion_bending(rectangle, 0.6, N[:3], -N[:3] * l2 * (1 + beyond), 0.0), hinge[:3], rtol=1e-7
+    )
+
+
 def test_effective_strength_is_eqs_41_and_42():
     assert effective_strength(20e6) == pytest.approx((0.7 - 20 / 200) * 20e6, rel=1e-15)
     assert effective_strength(60e6) == pytest.approx(0.4 * 60e6, rel=1e-15)
