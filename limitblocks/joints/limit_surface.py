@@ -164,7 +164,6 @@ def unique_shapes(polygons: Array) -> tuple[Indices, Indices]:
     """
     m, n, _ = polygons.shape
     rounded = np.round(polygons / np.abs(polygons).max(initial=1e-300), 9)
-    rounded += 0.0  # -0.0 becomes 0.0
     start = np.lexsort(np.moveaxis(rounded[..., ::-1], -1, 0), axis=1)[:, :1]
     order = (start + np.arange(n)) % n
     turned = np.take_along_axis(rounded, order[..., None], axis=1).reshape(m, 2 * n)
