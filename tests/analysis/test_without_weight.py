@@ -87,6 +87,18 @@ def test_a_stone_of_no_weight_on_two_others_changes_nothing(joint):
     assert lb.bounds(model_of(blocks, ["ground"], joint)).load_factor == pytest.approx(0.6, rel=1e-6)
 
 
+@pytest.mark.parametrize(("bed", "beside"), [(JOINTS[3], JOINTS[0]), (JOINTS[0], JOINTS[3])])
+def test_a_stone_of_no_weight_beside_another_changes_nothing(bed, beside):
+    """No self-stress holds it: nothing is all that it carries, which solvers do not find but for rounding."""
+    box = lb.Block.box
+    blocks = [box("ground", (4, 4, 0.3), (0, 0, -0.15)), box("stone", (1, 1, 1), (0, 0, 0.5), 2e4)]
+    blocks.append(box("light", (0.5, 0.5, 0.5), (0.75, 0, 0.25), 0.0))
+    joints = {"ground|stone": bed, "ground|light": bed, "stone|light": beside}
+    model = model_of(blocks, ["ground"], bed)
+    model = replace(model, interfaces=[replace(i, joint=joints[i.name]) for i in model.interfaces])
+    assert lb.bounds(model).load_factor == pytest.approx(0.6, rel=1e-6)
+
+
 @pytest.mark.parametrize("joint", JOINTS)
 def test_blocks_that_carry_nothing_stand(joint):
     found = lb.stability(model_of(stones(1), ["ground"], joint))
