@@ -140,9 +140,8 @@ class LoadPath(Result):
 
     def __str__(self) -> str:
         snaps = f", {many(len(self.snaps), 'snap')}" if self.snaps else ""
-        return "; ".join(
-            (f"load path of {many(len(self.steps), 'step')}{snaps}: {self.collapse}", *self.remarks)
-        )
+        own = [remark for remark in self.remarks if remark not in self.collapse.remarks]
+        return "; ".join((f"load path of {many(len(self.steps), 'step')}{snaps}: {self.collapse}", *own))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the path as plain numbers, lists and text."""

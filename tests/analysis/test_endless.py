@@ -166,3 +166,4 @@ def test_where_no_increment_begins_one_push_without_end_leads_from_the_permanent
     assert path.load_factor == pytest.approx(2.0, rel=1e-8)  # 20 kN over 10 kN
     assert lb.check_mcp(model, path).passed
     assert any("one push without end" in said for said in path.remarks)
+    assert str(path).count("one push without end") == 1
