@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import takewhile
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 from limitblocks.arrays import Array, read_only
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
+from limitblocks.practice.kept import refuse_empty, sound_to
 from limitblocks.shown import Result, kept, many
 
 FLAT = 1e-8  # of the load factor: a smaller fall is within its accuracy, and its secant leads anywhere
@@ -100,11 +100,13 @@ class CapacityCurve(Result):
     zero: float | None
     ended: str
 
+    def __post_init__(self) -> None:
+        refuse_empty(self.points, "capacity curve")
+
     @property
     def proven_to(self) -> float:
         """Displacement up to which no joint presses across a gap, m."""
-        sound = [point.displacement for point in takewhile(lambda point: not point.across, self.points)]
-        return sound[-1]
+        return sound_to(self.points)
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -145,7 +147,7 @@ class CapacityCurve(Result):
 
     def __str__(self) -> str:
         first = self.points[0].load_factor
-        filled = self.points[len(self.points) - 1].displacement > self.proven_to
+        filled = self.points[-1].displacement > self.proven_to
         beyond = f"; beyond {self.proven_to:.4g} m joints press across their gaps" if filled else ""
         return self._line(
             f"capacity curve of {many(len(self.points), 'point')} from load factor {first:.6g}: "

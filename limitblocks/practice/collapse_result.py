@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import takewhile
 from typing import Any
 
 import numpy as np
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.model import Model
+from limitblocks.practice.kept import refuse_empty, sound_to
 from limitblocks.practice.settlement import Settlement
 from limitblocks.shown import Result, kept
 
@@ -70,6 +70,9 @@ class SettlementCurve(Result):
     falls: float | None
     ended: str
 
+    def __post_init__(self) -> None:
+        refuse_empty(self.points, "settlement until collapse")
+
     @property
     def supports(self) -> tuple[str, ...]:
         """Names of the supports that settle, as one body."""
@@ -83,8 +86,7 @@ class SettlementCurve(Result):
     @property
     def stands_to(self) -> float:
         """Settlement up to which the structure stands and no joint presses across a gap, m."""
-        sound = [point.displacement for point in takewhile(lambda point: not point.across, self.points)]
-        return sound[-1] if sound else 0.0
+        return sound_to(self.points)
 
     @property
     def filled(self) -> tuple[str, ...]:

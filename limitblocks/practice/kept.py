@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Sequence
+from itertools import takewhile
 from typing import Any, Protocol, TypeVar
 
-from limitblocks.errors import NotConverged
+from limitblocks.errors import ModelError, NotConverged
 from limitblocks.evidence.ending import Status
 
 
@@ -15,6 +16,10 @@ class Placed(Protocol):
     @property
     def displacement(self) -> float:
         """How far it is along the way, m."""
+
+    @property
+    def across(self) -> tuple[str, ...]:
+        """Joints that press across a gap."""
 
 
 P = TypeVar("P", bound=Placed)
@@ -44,3 +49,15 @@ def gathered(way: Generator[P, None, A], progress: Callable[[P], None] | None) -
     except KeyboardInterrupt:
         at = points[-1].displacement if points else 0.0
         return points, f"interrupted beyond {at:.6g} m"
+
+
+def refuse_empty(points: Sequence[Placed], what: str) -> None:
+    """ModelError where a way, as of a file, has no points."""
+    if not points:
+        raise ModelError(f"a {what} without points, expected the structure as it is at least")
+
+
+def sound_to(points: Sequence[Placed]) -> float:
+    """Return how far along a way no joint presses across a gap, m."""
+    sound = [point.displacement for point in takewhile(lambda point: not point.across, points)]
+    return sound[-1] if sound else 0.0

@@ -25,7 +25,7 @@ from limitblocks.mechanics.loads.load import Vector, number, of, vector
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.elements import Element, with_elements
 from limitblocks.problem import LimitProblem
-from limitblocks.shown import Result, coordinates, kept
+from limitblocks.shown import Result, coordinates, kept, many
 
 AMPLE = 1e-6  # more than the least, so that a checked answer reaches what is required
 NONE = 1e-6  # of the largest: what is less is left out
@@ -64,6 +64,11 @@ class Repair(Result):
     candidates: tuple[str, ...]
     required: float
     digest: str
+
+    def __post_init__(self) -> None:
+        if len(self.amounts) != len(self.candidates):
+            given = many(len(self.amounts), "amount")
+            raise ModelError(f"{given} of {many(len(self.candidates), 'candidate')}")
 
     @property
     def remarks(self) -> tuple[str, ...]:

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
+from limitblocks.errors import ModelError
 from limitblocks.practice.moving_masses import MovingMass
 from limitblocks.shown import Result, compared, kept
 
@@ -99,6 +100,10 @@ class Verification(Result):
     digest: str
     remarks: tuple[str, ...] = ()
     left_out: str = ""
+
+    def __post_init__(self) -> None:
+        if all(one.symbol != "a0*" for one in self.quantities):
+            raise ModelError("a verification without a0*")
 
     @property
     def moving(self) -> tuple[str, ...]:

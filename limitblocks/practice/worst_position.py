@@ -18,7 +18,7 @@ from limitblocks.model import Model
 from limitblocks.practice.envelope import Found, line_of, search
 from limitblocks.practice.partial_factors import live_factor
 from limitblocks.practice.vehicles import Deck, Vehicle, axles
-from limitblocks.shown import Result, coordinate, kept
+from limitblocks.shown import Result, coordinate, kept, many
 
 STOPPED = "interrupted: a position that was not tried may be worse"
 
@@ -56,6 +56,11 @@ class WorstPosition(Result):
     deck: Deck
     digest: str
     complete: bool = True
+
+    def __post_init__(self) -> None:
+        if len(self.positions) != len(self.load_factors):
+            given = many(len(self.load_factors), "load factor")
+            raise ModelError(f"{given} of {many(len(self.positions), 'position')}")
 
     def rows(self) -> list[dict[str, Any]]:
         """Return a row for each position, in their order along the deck."""
