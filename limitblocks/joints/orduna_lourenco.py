@@ -10,7 +10,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
-from limitblocks.geometry.polygon import areas
+from limitblocks.geometry.polygon import TIE, along_longest_side, areas
 from limitblocks.joints.base import (
     YieldRows,
     checked_choice,
@@ -73,8 +73,8 @@ class OrdunaLourenco(Queries):
     - Eqs (23) and (30) overestimate torsion under bending except when a hinge forms, by up to 31 % of the
       effective rectangle's strength or 0.23 T0;
     - the rectangle of Eqs (31)-(32) that stands for another quadrilateral has 0.63 to 1.27 times its torsion,
-      the most on slender ones that are nearly triangles, with x1 along the longest side, as
-      :func:`limitblocks.find_interfaces` has it;
+      the most on slender ones that are nearly triangles; its sides are along and across the longest one, as
+      :func:`limitblocks.find_interfaces` has the axes, however the axes of the interface lie;
     - on them Eq. (30) as printed cuts the corners of the hinging polygon, where Eq. (36) is exact: moments
       are divided by the largest |x1| + |x2| of a corner, which is l1 + l2 on a rectangle;
     - other polygons have planes through T0 and the states of Table 4, and so no axes: on regular ones of 5 to
@@ -195,12 +195,15 @@ class OrdunaLourenco(Queries):
             return frictional(mode, -table * scale[..., :6], g, size)
 
         if polygons.shape[1] == 4:
-            half_sides = equivalent_half_sides(polygons)
+            turn = _along_a_side(polygons)
+            turned = polygons @ turn.mT
+            half_sides = equivalent_half_sides(turned)
             constants = rectangle_torsion_constant(half_sides[:, 0], half_sides[:, 1])  # Eq. (17)
             # off rectangles corners lie outside |x1| + |x2| = l1 + l2, where Eq. (30) would forbid hinging
-            per_corner = 1.0 / np.abs(polygons).sum(axis=2).max(axis=1)
+            per_corner = 1.0 / np.abs(turned).sum(axis=2).max(axis=1)
             factors = self.friction / 2 * per_corner, 1.0 / half_sides.sum(axis=1)
             bending = rows("moment-twist", MOMENT_TWIST, 0.5, *factors)
+            bending.F[..., 3:5] = bending.F[..., 3:5] @ turn
         else:
             constants = torsion_constants(polygons)
             table = key_state_rows(polygons) * (0.0, 0.0, *[self.friction] * 3, 1.0)
@@ -225,6 +228,12 @@ def _circle_tables(slip: str, sides: int) -> tuple[Array, Array, int]:
     planes = [(d1, d2, 1, 0, 0, 0) for d1, d2 in d]  # Eqs (24)-(26)
     twisted = [(d1, d2, 1, 0, 0, t) for (d1, d2), t in product(d, SIGNS)]  # Eqs (27)-(29)
     return np.array(planes), np.array(twisted), 0
+
+
+def _along_a_side(polygons: Array) -> Array:
+    """Turns (m, 2, 2) from the axes of polygons (m, n, 2) to those along their longest sides."""
+    _, turn = along_longest_side(polygons, np.broadcast_to(np.eye(2, 3), (len(polygons), 2, 3)))
+    return np.where(np.abs(turn[:, :1, 1:]) <= TIE, np.eye(2), turn)  # to the last bit where they are these
 
 
 def equivalent_half_sides(polygons: Array) -> Array:

@@ -8,7 +8,7 @@ import limitblocks as lb
 from limitblocks.geometry.polygon import along_longest_side, areas, centroids
 from limitblocks.joints.interaction import rectangle_torsion_bending
 from limitblocks.joints.orduna_lourenco import equivalent_half_sides
-from limitblocks.joints.torsion import torsion_constants
+from limitblocks.joints.torsion import rectangle_torsion_constant, torsion_constants
 
 HEXAGON = np.array([(np.cos(t), 0.6 * np.sin(t)) for t in np.arange(6) * np.pi / 3])
 
@@ -135,6 +135,20 @@ def test_vertex_order_does_not_matter():
             np.testing.assert_allclose(
                 equivalent_half_sides(turned[None]), equivalent_half_sides(polygon[None])
             )
+
+
+@pytest.mark.parametrize("half_sides", [(L1, L2), (L1, L1)])
+@pytest.mark.parametrize("angle", [0.0, 0.2, np.pi / 4, np.pi / 2, 2.5])
+def test_a_rectangle_is_as_strong_however_its_axes_lie(angle, half_sides):
+    """Eq. (17), and Eq. (30) at e1 = l1 / 2 along the rectangle."""
+    l1, l2 = half_sides
+    out = np.array([np.cos(angle), np.sin(angle)])
+    rectangle = np.array([(l1, -l2), (l1, l2), (-l1, l2), (-l1, -l2)]) @ [out, [-out[1], out[0]]]
+    e1, e2 = l1 / 2 * out
+    interface, twist = lb.joints.interface(rectangle, None), (0, 0, 0, 0, 0, 1)
+    strengths = [PAPER.strength(interface, twist, (0, 0, N, e2 * N * k, -e1 * N * k, 0)) for k in (0, 1)]
+    c_T = float(rectangle_torsion_constant(l1, l2))
+    assert strengths == pytest.approx([-MU * N * c_T, -MU * N * (l1 / 2 + l2) / 2], rel=1e-12)
 
 
 @pytest.mark.parametrize("sides", [3, 4, 8, 12, 17])
