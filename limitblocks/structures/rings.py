@@ -54,8 +54,7 @@ class Profile(NamedTuple):
         fine = np.linspace(-springing, springing, 20001)
         radius = (a * b) ** 2 / np.hypot(a * np.sin(fine), b * np.cos(fine)) ** 3
         length = np.concatenate([[0.0], np.cumsum((radius[1:] + radius[:-1]) / 2)])
-        half = np.interp(np.linspace(0.0, length[-1], voussoirs + 1), length, fine)
-        return np.asarray((half - half[::-1]) / 2)
+        return np.interp(np.linspace(0.0, length[-1], voussoirs + 1), length, fine)
 
     def angles_at(self, x: Array, sides: Array, offset: float) -> Array:
         """Return the angles at which the curve at `offset` has the abscissae `x`; `sides` +-1 or 0 (n,)."""
@@ -98,7 +97,7 @@ class Ring(NamedTuple):
         inner = profile.points(inside, -half)
         if stereotomy == "vertical":
             at = slice(1, -1)
-            outside[at] = profile.angles_at(inner[at, 0], np.sign(np.round(inside[at], 12)), half)
+            outside[at] = profile.angles_at(inner[at, 0], np.sign(inside[at]), half)
         ends = np.column_stack([outside[:-1], outside[1:]])
         if profile.shift:
             ends[voussoirs // 2, 0] *= -1.0  # the right half begins at the apex, too
@@ -190,7 +189,7 @@ def elliptical(
 
 def _sides(ends: Array, joints: Array) -> int:
     """Return how many sides of an extrados between angles `ends` (n, 2) are no wider than the voussoirs."""
-    return int(np.ceil(np.ptp(ends, axis=1).max() / np.diff(joints).max() - 1e-9))
+    return int(np.ceil(np.ptp(ends, axis=1).max() / np.diff(joints).max()))
 
 
 def _refuse_ring(voussoirs: int, stereotomy: str, facets: int) -> None:
