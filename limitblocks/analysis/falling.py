@@ -10,9 +10,9 @@ from limitblocks.analysis.programs import answers, falling_program
 from limitblocks.analysis.scales import compatible, scaled
 from limitblocks.arrays import Array
 from limitblocks.evidence.measure import Measure
+from limitblocks.evidence.relative_rates import MOVING
 from limitblocks.problem import Flow, LimitProblem, State
 
-MOVING = 1e-3  # of the largest displacement rate: less counts as standing still
 FALLING = 1e-6  # of the work of the weights on their blocks' lengths: surplus work below it counts as balance
 LIKELY = 10.0  # times the largest load tied to an interface: more force on it is not to be expected
 CERTIFIED = 1e-7  # largest residual of a mechanism that proves that a structure falls
@@ -29,7 +29,7 @@ class Fall:
     @property
     def blocks(self) -> tuple[str, ...]:
         """Blocks whose power is more than MOVING of the largest."""
-        speed = np.abs(self.state.u).reshape(-1, 6).max(axis=1)
+        speed = np.linalg.norm(self.state.u.reshape(-1, 6), axis=1)  # the same in all axes
         return tuple(np.array(self.flow.problem.blocks)[speed > MOVING * speed.max()].tolist())
 
     @property

@@ -8,7 +8,7 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.geometry.ends import ends_of
 from limitblocks.model import Model
 
-MOVING = 1e-3  # of the largest displacement rate: a relative motion below it counts as none
+MOVING = 1e-3  # of the largest displacement rate: less counts as standing still
 
 
 def relative_rates(model: Model, rates: Array) -> Array:
@@ -25,8 +25,12 @@ def relative_rates(model: Model, rates: Array) -> Array:
     return np.asarray(((at(j) - at(i)) @ axes.swapaxes(1, 2)).reshape(-1, 6))
 
 
+def speeds(model: Model, rates: Array) -> Array:
+    """Displacement rates of blocks, rotations times their sizes, the same in all axes, shape (n,)."""
+    sizes = np.array([block.size for block in model.blocks])
+    return np.asarray(np.linalg.norm(rates[:, :3], axis=1) + sizes * np.linalg.norm(rates[:, 3:], axis=1))
+
+
 def largest_rate(model: Model, rates: Array) -> float:
     """Largest displacement rate of the mechanism, rotations times the size of the block."""
-    sizes = np.array([block.size for block in model.blocks])
-    speed = np.linalg.norm(rates[:, :3], axis=1) + sizes * np.linalg.norm(rates[:, 3:], axis=1)
-    return float(speed.max())
+    return float(speeds(model, rates).max())

@@ -1,12 +1,16 @@
 """What is kept of the states that a search for a range meets, and what is said of them."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.analysis.load_factor_range.answers import Collected
+from limitblocks.analysis.falling import Fall
+from limitblocks.analysis.load_factor_range.answers import Collected, of_result
 from limitblocks.analysis.nonassociated.start import state_of
 from limitblocks.evidence.range_answer import Origin
-from limitblocks.problem import Flow
+from limitblocks.problem import Flow, State
 
 
 def test_a_load_factor_that_was_searched_and_then_reached_is_reached():
@@ -46,3 +50,23 @@ def test_blocks_without_weight_that_forces_press_and_push(unit_weight):
     (answer,) = lb.load_factor_range(model, paths=1, mechanisms=0).answers
     assert answer.load_factor == pytest.approx(0.3, rel=1e-6)
     assert (answer.moving, answer.share) == (("upper",), pytest.approx(1.0 / (3.0 + 1.0)))
+
+
+def test_which_blocks_move_does_not_depend_on_the_axes():
+    """One moves at 1, the other at 9e-4: less than the thousandth that counts, whatever their components."""
+    stones = [lb.Block.box("ground", (4, 4, 0.2), at=(0, 0, -0.1))]
+    stones += [
+        lb.Block.box(name, (1, 1, 1), at=(x, 0, 0.5), unit_weight=2e4) for name, x in (("a", -1), ("b", 1))
+    ]
+    joint, push = lb.PointContact(0.6), lb.mass_proportional((1, 0, 0))
+    model = lb.Model(stones, ["ground"], lb.find_interfaces(stones, joint), lb.self_weight(), push)
+    result, flow = lb.nonassociated(model, confirm=False), Flow(model.problem)
+    for direction in ((1, 0, 0), (1, 1, 0)):
+        rates = np.zeros((3, 6))
+        rates[1, :3], rates[2, 0] = np.divide(direction, np.linalg.norm(direction)), 9e-4
+        found = replace(result, displacement_rates=rates)
+        assert of_result(model, flow, np.zeros(flow.problem.C.shape[0]), found, Origin.SEARCHED).moving == (
+            "a",
+        )
+        fall = Fall(flow, model.problem.dead, State(0.0, np.zeros(0), rates[1:].ravel(), np.zeros(0)))
+        assert fall.blocks == ("a",)

@@ -15,6 +15,7 @@ from limitblocks.analysis.polish import defect
 from limitblocks.arrays import Array
 from limitblocks.evidence.check import check_mcp
 from limitblocks.evidence.range_answer import Origin, RangeAnswer
+from limitblocks.evidence.relative_rates import MOVING, speeds
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
@@ -22,8 +23,8 @@ from limitblocks.problem import Flow, LimitProblem, State
 from limitblocks.problem.places import places
 
 DISTINCT = 1e-4  # of the scale of load factors: nearer ones are one answer
+SLIPPING = 1e-3  # of the multipliers of a point: less strain is no slip
 NOISE = 1e-9  # of the multipliers: mechanisms that hardly slip have no thrust to compare
-MOVING = 1e-3  # of the largest rate: a slower block stands still; of the multipliers of a point: no slip
 
 
 class Certified(NamedTuple):
@@ -136,12 +137,9 @@ def of_result(
     model: Model, flow: Flow, permanent: Array, result: Nonassociated, origin: Origin
 ) -> RangeAnswer:
     """Return a solution as an answer; `permanent` are the dimensionless stresses of the permanent loads."""
-    sizes = np.array([block.size for block in model.blocks]) / 2.0
-    rates = np.abs(result.displacement_rates)
-    speed = np.maximum(rates[:, :3].max(axis=1), rates[:, 3:].max(axis=1) * sizes)
-    moves = {b.name for b, fast in zip(model.blocks, speed > MOVING * speed.max(), strict=True) if fast}
-    free = model.free_blocks
-    moving = tuple(block.name for block in free if block.name in moves)
+    free, speed = model.free_blocks, speeds(model, result.displacement_rates)[model.free]
+    moves = speed > MOVING * speed.max()
+    moving = tuple(block.name for block, fast in zip(free, moves.tolist(), strict=True) if fast)
     weights = {b.name: b.volume * (b.unit_weight or 0.0) for b in free}
     weights = weights if any(weights.values()) else {b.name: b.volume for b in free}
     p = flow.problem
@@ -167,7 +165,7 @@ def _slipping(p: LimitProblem, slips: sparse.csr_array, G: sparse.csr_array, y: 
     strains, largest = (np.zeros(max(members.max(), stresses.max()) + 1) for _ in range(2))
     np.maximum.at(strains, stresses, np.abs(G.T @ own))
     np.maximum.at(largest, members, p.cones.norm(own))
-    return np.where((strains > MOVING * largest)[members][p.cones.member], own, 0.0)
+    return np.where((strains > SLIPPING * largest)[members][p.cones.member], own, 0.0)
 
 
 def remarks(flow: Flow, first: RangeAnswer | None, answers: list[RangeAnswer]) -> tuple[str, ...]:
