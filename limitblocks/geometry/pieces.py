@@ -66,7 +66,7 @@ def _divided(shape: Any, x_axis: Array, mirrored: bool, tolerance: float) -> lis
     if found := rectangles(clean, turn, tolerance):
         return found
     flat, origin = _canonical(clean, turn, root * _GRID)
-    loops = _merged(_triangles(flat), tolerance / (root * _GRID))
+    loops = _merged(delaunay(flat), tolerance / (root * _GRID))
     hulls = shapely.convex_hull([shapely.multipoints([origin[point] for point in loop]) for loop in loops])
     return list(hulls[shapely.area(hulls) > 1e-9 * root**2])
 
@@ -109,7 +109,7 @@ def _canonical(shape: Any, turn: Array, grid: float) -> tuple[Any, dict[Point, P
     return shapely.normalize(flat), places
 
 
-def _triangles(shape: Any) -> list[list[Point]]:
+def delaunay(shape: Any) -> list[list[Point]]:
     """Return the constrained Delaunay triangles of a polygon, counter-clockwise."""
     parts = shapely.get_parts(shapely.constrained_delaunay_triangles(shape))
     corners = [[tuple(point) for point in shapely.get_coordinates(part)[:3].tolist()] for part in parts]

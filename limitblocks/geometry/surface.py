@@ -7,6 +7,7 @@ import shapely
 
 from limitblocks.arrays import Array, Indices, tied
 from limitblocks.geometry.neighbours import overlapping_boxes
+from limitblocks.geometry.pieces import delaunay
 from limitblocks.geometry.polygon import axes_of
 from limitblocks.geometry.polyhedron import Mesh
 
@@ -40,12 +41,10 @@ def surface_fault(points: Array, edges: Mesh, normals: Array, size: float) -> st
 def triangles(points: Array, edges: Mesh, normals: Array) -> tuple[Indices, Indices]:
     """Return triangles of the faces: vertices (t, 3), counter-clockwise from outside, and their face (t,).
 
-    Fans for faces without reflex corners, ear clipping for the others; no vertices are added. Where a
-    triangle would have no area, as next to a corner on a straight side, :func:`_broadest` divides the face:
-    what makes solids takes triangles without area for something to mend.
+    Fans for faces without reflex corners, constrained Delaunay triangles for the others, and where a fan
+    would have one without area, as next to a corner on a straight side: what makes solids takes it for
+    something to mend. No vertices are added.
     """
-    from manifold3d import triangulate
-
     bent = _bent(points, edges, normals)
     apex = edges.start[edges.first][edges.face]
     inner = (edges.start != apex) & (edges.end != apex)
@@ -55,11 +54,10 @@ def triangles(points: Array, edges: Mesh, normals: Array) -> tuple[Indices, Indi
     divided, owners = [fans[kept]], [owner[kept]]
     for k in others:
         loop = _loop(edges, k)
-        corners, flat = points[loop], _flat(points[loop], normals[k])
-        trios = np.asarray(triangulate([flat]))
-        if _breadth(corners[trios]).min() <= _NOTHING:
-            trios = _broadest(corners, flat)
-        divided.append(loop[trios])
+        flat = _flat(points[loop], normals[k])
+        vertex = dict(zip(map(tuple, flat.tolist()), loop.tolist(), strict=True))
+        trios = [[vertex[place] for place in trio] for trio in delaunay(shapely.polygons(flat))]
+        divided.append(np.array(trios))
         owners.append(np.full(len(trios), k))
     return np.concatenate(divided), np.concatenate(owners)
 
@@ -70,36 +68,6 @@ def _breadth(corners: Array) -> Array:
     longest = np.linalg.norm(sides, axis=2).max(axis=1)
     areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
     return np.asarray(areas / np.maximum(longest**2, np.finfo(float).tiny))
-
-
-def _broadest(corners: Array, flat: Array) -> Indices:
-    """Triangles (n - 2, 3) of a simple polygon (n, 3), in its plane (n, 2), the narrowest as broad as can be.
-
-    Klincsek (1980), Minimal triangulations of polygonal domains, Annals of Discrete Mathematics 9: that of
-    the corners i to j is a triangle i k j and those of i to k and of k to j.
-    """
-    n, whole = len(flat), shapely.buffer(shapely.polygons(flat), _NOTHING * np.ptp(flat))
-    ends = np.column_stack(np.triu_indices(n, 1))
-    inside = np.zeros((n, n), dtype=bool)
-    inside[*ends.T] = shapely.covers(whole, shapely.linestrings(flat[ends]))
-    best, middle = np.full((n, n), np.inf), np.zeros((n, n), dtype=np.int64)
-    for span in range(2, n):
-        for first in range(n - span):
-            last, between = first + span, np.arange(first + 1, first + span)
-            trios = np.column_stack([np.full(span - 1, first), between, np.full(span - 1, last)])
-            breadth = np.minimum(best[first, between], best[between, last])
-            breadth = np.minimum(breadth, _breadth(corners[trios]))
-            k = int(breadth.argmax())
-            best[first, last] = breadth[k] if inside[first, last] else -1.0
-            middle[first, last] = between[k]
-    found, left = [], [(0, n - 1)]
-    while left:
-        first, last = left.pop()
-        if last - first > 1:
-            k = int(middle[first, last])
-            found.append((first, k, last))
-            left += [(first, k), (k, last)]
-    return np.array(found, dtype=np.int64)
 
 
 def _bent(points: Array, edges: Mesh, normals: Array) -> Indices:

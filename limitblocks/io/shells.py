@@ -97,8 +97,7 @@ def _groups(name: str, points: Array, loops: Faces) -> list[list[int]]:
         rest: list[int] = []
         for part, whole in zip(parts, closed, strict=True):
             faces = [left[k] for k in part]
-            sound = whole or (len(parts) > 1 and closes(points, [loops[k] for k in faces]))
-            if sound:
+            if whole or closes(points, [loops[k] for k in faces]):
                 found.append(faces)
             else:
                 rest += faces

@@ -144,6 +144,24 @@ def test_a_face_that_crosses_itself_is_told_as_such(tmp_path):
     )
 
 
+def test_a_hollow_block_inside_out_keeps_its_cavity(tmp_path):
+    meshes = [trimesh.Trimesh(one.vertices, one.triangles, process=False) for one in (BOX, HOLLOW)]
+    meshes[0].faces = meshes[0].faces[:, ::-1]
+    trimesh.util.concatenate(meshes).export(tmp_path / "a.ply")
+    (block,) = lb.files.read_blocks(tmp_path / "a.ply").blocks
+    assert block.volume == pytest.approx(6.0 - 0.125)
+
+
+def test_a_cavity_is_of_the_nearest_solid_around_it(tmp_path):
+    """A hollow box within the cavity of another, as of a reliquary in its shrine."""
+    shells = [trimesh.creation.box((side,) * 3) for side in (4.0, 3.0, 2.0, 1.0)]
+    for cavity in shells[1::2]:
+        cavity.faces = cavity.faces[:, ::-1]
+    trimesh.util.concatenate(shells).export(tmp_path / "a.ply")
+    found = lb.files.read_blocks(tmp_path / "a.ply")
+    assert [block.volume for block in found.blocks] == pytest.approx([64.0 - 27.0, 8.0 - 1.0])
+
+
 #: Stones one on the other with equal faces, so that every joint has its edges twice.
 STONES = [lb.Block.box(f"{k}", (1.0, 0.5, 0.5), (0.0, 0.0, 0.5 * k + 0.25)) for k in range(5)]
 
@@ -153,7 +171,7 @@ def repeated(vertices, faces):
 
 
 def without_area(vertices, faces):
-    return vertices, [*faces, [faces[0][0], faces[0][0], faces[0][1]]]
+    return vertices, [faces[0], [faces[0][0], faces[0][0], faces[0][1]], *faces[1:]]
 
 
 def cracked(vertices, faces):
@@ -197,6 +215,21 @@ def test_a_flaw_of_one_stone_leaves_those_that_touch_it_as_they_are(suffix, flaw
     assert {note.split("'")[1] for note in found.notes if note.startswith("block '")} == set(named)
 
 
+def test_stones_that_touch_may_all_have_a_face_without_area(tmp_path):
+    found = lb.files.read_blocks(stones_in(tmp_path / "a.stl", without_area, range(5)), up="z")
+    assert [block.volume for block in found.blocks] == pytest.approx([0.25] * 5)
+
+
+def test_a_stone_inside_out_on_a_larger_one_is_no_cavity_of_it(tmp_path):
+    """Its lowest corners are in a face of the other, round which it winds half."""
+    small = lb.Block.box("small", (0.5, 0.5, 0.5), (0.5, 1.0, 3.25))
+    meshes = [trimesh.Trimesh(one.vertices, one.triangles, process=False) for one in (BOX, small)]
+    meshes[1].faces = meshes[1].faces[:, ::-1]
+    trimesh.util.concatenate(meshes).export(tmp_path / "a.ply")
+    found = lb.files.read_blocks(tmp_path / "a.ply", up="z")
+    assert [block.volume for block in found.blocks] == pytest.approx([6.0, 0.125])
+
+
 @pytest.mark.parametrize("suffix", [".ply", ".stl", ".dxf", ".obj"])
 @pytest.mark.parametrize("which", [0, 2, 4])
 def test_an_open_stone_is_named_by_itself(suffix, which, tmp_path):
@@ -209,6 +242,52 @@ def test_an_open_stone_is_named_by_itself(suffix, which, tmp_path):
     found = lb.files.read_blocks(path, up="z", skip_bad=True)
     heights = [block.centroid[2] for block in found.blocks]
     assert heights == pytest.approx([0.5 * k + 0.25 for k in range(5) if k != which])
+
+
+def alternating(*blocks):
+    """One mesh of blocks with as many triangles each, a triangle of every block in turn."""
+    meshes = [trimesh.Trimesh(block.vertices, block.triangles, process=False) for block in blocks]
+    mesh = trimesh.util.concatenate(meshes)
+    mesh.faces = mesh.faces.reshape(len(blocks), -1, 3).swapaxes(0, 1).reshape(-1, 3)
+    return mesh
+
+
+def rounded(mesh):
+    """The triangles with corners of their own, off by up to 1e-7 m."""
+    corners = mesh.triangles + 1e-7 * np.random.default_rng(0).uniform(-1.0, 1.0, mesh.triangles.shape)
+    return trimesh.Trimesh(corners.reshape(-1, 3), np.arange(corners.size // 3).reshape(-1, 3), process=False)
+
+
+def stone_at(z, side=1.0):
+    return lb.Block.box("a", (side, side, side), (0.0, 0.0, z))
+
+
+#: What tells the solids apart: vertices of their own, places, these but for rounding, the order of faces.
+MERGED = {
+    "own vertices, touching": ("ply", alternating(stone_at(0.5), stone_at(1.5))),
+    "places, apart": ("stl", alternating(stone_at(0.5), stone_at(2.5))),
+    "places but for rounding, apart": ("ply", rounded(alternating(stone_at(0.5), stone_at(2.5)))),
+    "order, touching, rounded": ("ply", rounded(trimesh.util.concatenate([
+        trimesh.Trimesh(stone_at(z).vertices, stone_at(z).triangles, process=False) for z in (0.5, 1.5)
+    ]))),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", MERGED)
+def test_two_solids_of_one_mesh_are_told_apart(name, tmp_path):
+    suffix, mesh = MERGED[name]
+    mesh.export(tmp_path / f"a.{suffix}")
+    found = lb.files.read_blocks(tmp_path / f"a.{suffix}")
+    assert [block.volume for block in found.blocks] == pytest.approx([1.0, 1.0], rel=1e-5)
+
+
+def test_small_stones_on_a_large_ground_are_told_apart_before_vertices_are_merged(tmp_path):
+    """Vertices within 1e-6 of the whole are one at last: 2 cm of a ground of 20 km."""
+    blocks = [lb.Block.box("g", (2e4, 2e4, 1e3), (0, 0, -500)), stone_at(0.005, 0.01), stone_at(0.015, 0.01)]
+    meshes = [trimesh.Trimesh(block.vertices, block.triangles, process=False) for block in blocks]
+    trimesh.util.concatenate(meshes).export(tmp_path / "a.stl")
+    found = lb.files.read_blocks(tmp_path / "a.stl", units="m", up="z")
+    assert [block.volume for block in found.blocks] == pytest.approx([4e11, 1e-6, 1e-6])
 
 
 @pytest.mark.parametrize("suffix", ["obj", "ply"])
