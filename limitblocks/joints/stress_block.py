@@ -82,10 +82,6 @@ def over_stress_block(
     e, some = e[bent], some[bent]
     over[some] = np.inf
     e, some = e[shares[some] <= 1.0 - LEAST], some[shares[some] <= 1.0 - LEAST]
-    # (1 - n) / (1 + sqrt(n)) = 1 - sqrt(n) times the polygon is within reach of the stress block
-    near = _times_as_far(e, polygons[some]) >= least * (1.0 - np.sqrt(shares[some]))
-    over[some[~near]] = 0.0
-    some, e = some[near], e[near]
     for chords in CHORDS:
         over[some] = _times_as_far(e, stress_block_centres(polygons[some], shares[some], chords))
         e, some = e[over[some] >= least], some[over[some] >= least]

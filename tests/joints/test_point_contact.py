@@ -270,4 +270,4 @@ def test_points_all_at_once_by_closed_forms():
     rectangle = np.array([(l1, l2), (-l1, l2), (-l1, -l2), (l1, -l2)])
     for points in (1, 3):
         rows = lb.PointContact(mu, points).yield_rows(np.repeat(rectangle[None], len(Q), axis=0))
-        assert used(rows, Q) == pytest.approx(expected, rel=1e-5, abs=1e-12)
+        assert used(rows, Q) == pytest.approx(expected, rel=1e-6, abs=1e-12)
