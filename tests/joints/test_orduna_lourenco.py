@@ -127,6 +127,14 @@ def test_a_force_at_a_corner_is_within_the_surface_of_any_polygon(sides):
             assert ((rows.F[0] @ Q + rows.g[0]).min() >= 0.0) == within
 
 
+@pytest.mark.parametrize("sides", range(3, 10))
+def test_a_force_at_a_corner_may_grow_without_limit(sides):
+    polygon = np.array([(np.cos(t), 0.6 * np.sin(t)) for t in 0.3 + np.arange(sides) * 2 * np.pi / sides])
+    interface = lb.joints.interface(polygon, None)
+    forces = [(0, 0, -1, -e2, e1, 0) for e1, e2 in interface.polygon]
+    assert {lb.OrdunaLourenco(0.6).strength(interface, force) for force in forces} == {np.inf}
+
+
 def test_vertex_order_does_not_matter():
     """Eqs (31)-(32) presuppose (+,-), (+,+), (-,+), (-,-); other first vertices are turned to it."""
     for polygon in (RECTANGLE, TRAPEZIUM):
