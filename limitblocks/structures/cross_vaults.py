@@ -157,7 +157,7 @@ def _with_crown(outline: Array) -> Array:
     """An outline (x, z) with its corners above x = 0 added where it lies on both sides of it."""
     if outline[:, 0].min() * outline[:, 0].max() >= 0.0:
         return outline
-    crown = [(0.0, z) for z in np.unique(np.round(outline[:, 1], 12))]
+    crown = [(0.0, z) for z in np.unique(outline[:, 1])]
     return np.vstack([outline, crown])
 
 

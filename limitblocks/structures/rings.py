@@ -105,9 +105,6 @@ class Ring(NamedTuple):
             facets = _sides(ends, inside) if stereotomy == "vertical" else 1
         between = np.linspace(ends[:, 0], ends[:, 1], facets + 1, axis=1)
         extrados = profile.points(between.ravel(), half).reshape(voussoirs, facets + 1, 2)
-        if profile.shift:
-            inner[voussoirs // 2, 0] = extrados[voussoirs // 2 - 1, -1, 0] = 0.0
-            extrados[voussoirs // 2, 0] = extrados[voussoirs // 2 - 1, -1]
         return cls(inner, np.vstack([extrados[:, 0], extrados[-1:, -1]]), extrados)
 
     def raised(self, height: float) -> Ring:

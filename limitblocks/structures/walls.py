@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from limitblocks.joints import Joint
 from limitblocks.model import Model
 from limitblocks.structures.bond import Bond, Opening, Piece, multiple, openings_of, refuse_wall
@@ -136,7 +134,7 @@ def _headers(
 ) -> Mapping[int, list[tuple[float, float]]]:
     """Spans of the headers by course, from 0; ModelError if they are off the grid of half blocks."""
     half = bond.block_length / 2
-    if not (0.0 < spacing < np.inf and multiple(spacing, half)) or spacing < 2 * half * (1 - 1e-9):
+    if not multiple(spacing, half) or round(spacing / half) < 2:
         refuse([f"header spacing is {spacing!r}, expected a multiple of {half:g} m, half a block, and at "
                 "least one block"])  # fmt: skip
     places, step = round(length / half), round(spacing / half)

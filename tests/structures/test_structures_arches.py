@@ -158,6 +158,16 @@ def test_fill_of_a_semicircle(facets):
     assert along(model, 0, "live") == pytest.approx(along(plain, 0, "live") + 0.5 * gamma * area * depth)
 
 
+def test_fill_up_to_a_flat_crown():
+    """Five facets, the middle one level: what is left of the rectangle up to it."""
+    outer, gamma, depth = 2.25, 18e3, 1.5
+    plain = circle(voussoirs=5, depth=depth)
+    model = circle(voussoirs=5, depth=depth, fill=Fill(0.0, gamma))
+    area = 2 * outer * outer * np.cos(np.pi / 10) - 5 / 2 * outer**2 * np.sin(np.pi / 5)
+    assert -along(model, 2) == pytest.approx(-along(plain, 2) + gamma * area * depth)
+    assert along(model, 0, "live") == pytest.approx(along(plain, 0, "live") + gamma * area * depth)
+
+
 def test_fill_loads_the_shoulders_of_the_piers():
     """Its weight is that of the rectangle above the piers less the extrados."""
     n, width, height, gamma = 8, 1.2, 0.4, 18e3

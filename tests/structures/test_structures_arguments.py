@@ -227,19 +227,32 @@ def test_volume_of_a_segmental_arch(rise):
     assert volume(made("segmental_arch", rise=rise)) == pytest.approx(expected, rel=1e-8)
 
 
-@pytest.mark.parametrize(("rise", "rings", "spans"), [(0.3, 1, 1), (1.0, 2, 3), (1.5, 3, 2)])
-def test_volume_and_count_of_a_bridge(rise, rings, spans):
+@pytest.mark.parametrize(
+    ("rise", "rings", "spans", "height"), [(0.3, 1, 1, 2.0), (1.0, 2, 3, 2.0), (1.5, 3, 2, 0.05)]
+)
+def test_volume_and_count_of_a_bridge(rise, rings, spans, height):
     """Rings, piers, and springers: trapezia of width w below and w - 2 t sin(phi) above, t cos(phi) high."""
-    model = made("arch_bridge", rise=rise, rings=rings, spans=spans, pier_height=2.0, pier_blocks=4)
+    model = made("arch_bridge", rise=rise, rings=rings, spans=spans, pier_height=height, pier_blocks=4)
     radius, phi = (9 / 4 + rise**2) / (2 * rise), 2 * np.arctan2(2 * rise, 3.0)
     arch = 4 / 2 * ((radius + 0.5) ** 2 - radius**2) * np.sin(2 * phi / 4)
-    pier = 1.5 * 2.0 + (1.5 - 0.5 * np.sin(phi)) * 0.5 * np.cos(phi)
+    pier = 1.5 * height + (1.5 - 0.5 * np.sin(phi)) * 0.5 * np.cos(phi)
     assert volume(model) == pytest.approx(spans * arch + (spans - 1) * pier, rel=1e-12)
     springers = int(rise < 1.5)
     assert len(model.free_blocks) == spans * rings * 4 + (spans - 1) * (4 + springers)
     assert len(model.interfaces) == spans * (4 * (rings - 1) + 3 * rings + 2 * rings) + (spans - 1) * (
         4 + springers
     )
+
+
+@pytest.mark.parametrize("rise", [0.3, 0.5, 0.7, 1.0, 1.3])
+def test_a_pier_of_a_bridge_may_be_as_wide_as_its_springings_whatever_rounding_says(rise):
+    """Its springer is a triangle of width w = 2 t sin(phi), sin(phi) = span / 2 / radius, t cos(phi) high."""
+    radius = (9 / 4 + rise**2) / (2 * rise)
+    width = 0.5 * 3.0 / radius
+    model = made("arch_bridge", rise=rise, pier_width=width)
+    springer = next(block for block in model.blocks if block.name == "pier 1 springer")
+    assert springer.volume == pytest.approx(width * 0.5 * (radius - rise) / radius / 2, rel=1e-9)
+    assert len(springer.vertices) == 6
 
 
 @pytest.mark.parametrize("rise", [1.6, 2.0, 4.0])

@@ -61,6 +61,13 @@ def test_opening_to_the_top_of_the_wall_has_no_lintel():
     assert not any("lintel" in block.name for block in model.blocks)
 
 
+def test_openings_side_by_side_up_to_the_ends_of_the_wall_whatever_rounding_says():
+    """0.4 + 0.8 is above 1.2, 1.6 + 0.8 above 2.4, and 0.15 + 0.75 above 6 x 0.15."""
+    openings = [(0.4, 0.15, 0.8, 0.75), (1.2, 0.15, 0.4, 0.75), (1.6, 0.15, 0.8, 0.75)]
+    model = structures.wall(JOINT, length=2.4, courses=6, block_height=0.15, openings=openings)
+    assert volume(model) == pytest.approx((2.4 * 0.9 - 2.0 * 0.75) * 0.2, rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("opening", "message"),
     [
