@@ -6,6 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import limitblocks as lb
+from limitblocks.mechanics.loads.tops import stretches, tops
+from limitblocks.structures.convex import hull
 
 FORCE = (1e3, -2e3, -5e3)
 SLABS = [
@@ -59,6 +61,60 @@ def test_at_an_edge_the_higher_block_is_on_top_if_only_by_a_little():
     low, high = SLABS[0], lb.Block.box("beside", (2, 2, 1.001), (1, 0, 0.5005), 1.0)
     load = lb.loads.top_force(FORCE, (0.0, 0.0)).on([low, high])
     assert load.any(axis=1).tolist() == [False, True]
+
+
+TURNS = np.radians([0.0, 3.0, 17.0, 33.0, 50.0, 71.0])
+
+
+def turned(turn, blocks, places):
+    """Blocks and places in plan (m, 2) turned about Z."""
+    c, s = np.cos(turn), np.sin(turn)
+    about = np.array([(c, -s, 0), (s, c, 0), (0, 0, 1)])
+    return [block.moved(about, (0, 0, 0)) for block in blocks], np.asarray(places) @ about[:2, :2].T
+
+
+@pytest.mark.parametrize("turn", TURNS)
+def test_a_wall_that_stands_upright_but_for_rounding_has_no_top(turn):
+    """A gable: at its own plane the top is the slope of the roof, not anything up to the ridge."""
+    gable = lb.Block.prism("gable", [(0, 0), (2, 0), (2, 3), (1, 5), (0, 3)], (0, 1), 1.0, along="x")
+    y = np.array([0.1, 0.3, 0.7, 1.5, 1.9] * 2)
+    blocks, places = turned(turn, [gable], np.column_stack([np.repeat([0.0, 1.0], 5), y]))
+    owner, height = tops(blocks, places)
+    assert not owner.any()
+    assert height == pytest.approx(3.0 + 2.0 * np.minimum(y, 2.0 - y))
+
+
+@pytest.mark.parametrize("turn", TURNS)
+def test_a_place_on_the_edge_of_blocks_is_on_one_of_them(turn):
+    blocks, places = turned(turn, SLABS[:2], [(0.0, y) for y in (-1.0, -0.4, 0.3, 1.0)])
+    assert (tops(blocks, places)[0] >= 0).all()
+
+
+def test_a_steep_face_reaches_no_higher_than_its_edge():
+    """Beside a side that leans by 1e-7: .5 nm inside of its upper edge its plane is 5 mm higher."""
+    corners = [(x, y) for x in (-0.5, 0.5) for y in (-0.5, 0.5)]
+    top = [(x, y, 1.0) for x, y in corners]
+    stone = hull("stone", [*top, *((x * (1.0 + 2e-7), y, 0.0) for x, y in corners)], 1.0)
+    assert tops([stone], np.array([[0.5 - 5e-10, 0.1]]))[1] == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("turn", TURNS)
+@pytest.mark.parametrize(
+    ("ends", "owner", "cuts"),
+    [
+        ([(-2, 0.6), (2, 0.6)], [0, 1], [0.5]),  # across a joint, beside the stone over one of them
+        ([(0, 0.6), (2, 0.6)], [1], []),  # from a joint
+        ([(-2, 0.0), (-4, 0.0)], [3, 4, 3], [0.25, 0.75]),  # from corner to corner of a stone
+    ],
+)
+def test_a_line_is_cut_once_where_it_comes_to_another_block(turn, ends, owner, cuts):
+    """Each edge is that of two faces, and meets the line twice."""
+    slab = lb.Block.box("slab", (2, 2, 1), (-3, 0, 0.5), 1.0)
+    corners = [(x - 3.0, y, z) for x, y in ((0.5, 0), (-0.5, 0), (0, 0.5), (0, -0.5)) for z in (1.0, 2.0)]
+    blocks, (start, end) = turned(turn, [*SLABS, slab, hull("askew", corners, 1.0)], ends)
+    places, below = stretches(start, end, blocks)
+    assert below.tolist() == owner
+    assert places == pytest.approx([0.0, *cuts, 1.0])
 
 
 def test_line_load_is_shared_by_length():

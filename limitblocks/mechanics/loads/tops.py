@@ -14,6 +14,7 @@ from limitblocks.mechanics.loads.load import Load, Place, Vector, of, place, tri
 from limitblocks.shown import coordinates
 
 _SIDE = 1e-9  # of a block's size squared: a triangle with a smaller area in plan counts as vertical
+_SAME = 1e-9  # of a line: edges that cut it as near to each other are one, met once for each of its faces
 _TOUCH = 1e-9  # of the blocks' size: an edge belongs to both its blocks, and the first of them counts
 
 
@@ -167,11 +168,10 @@ def _crossings(start: Array, along: Array, blocks: Sequence[Block]) -> Array:
     b = np.concatenate([block.vertices[block.mesh.end, :2] for block in blocks])
     side = b - a
     across = along[0] * side[:, 1] - along[1] * side[:, 0]
-    meet = np.abs(across) > 1e-12 * np.linalg.norm(along) * np.linalg.norm(side, axis=1)
+    meet = across != 0.0  # one along it may cut it anywhere, which changes nothing
     a, side, across, off = a[meet], side[meet], across[meet], (a - start)[meet]
     s = (off[:, 0] * side[:, 1] - off[:, 1] * side[:, 0]) / across
     t = (off[:, 0] * along[1] - off[:, 1] * along[0]) / across
-    s = np.unique(np.concatenate([[0.0, 1.0], s[(s > 0.0) & (s < 1.0) & (t > -1e-9) & (t < 1.0 + 1e-9)]]))
-    keep = np.diff(s, prepend=-1.0) > 1e-9  # an edge is met twice, once for each of its faces
-    keep[-1], s[s > 1.0 - 1e-9] = True, 1.0
-    return np.unique(s[keep])
+    within = (s < 1.0 - _SAME) & (t > -_SAME) & (t < 1.0 + _SAME) & (s > 0.0)
+    s = np.unique(np.concatenate([[0.0, 1.0], s[within]]))
+    return np.asarray(s[np.diff(s, prepend=-1.0) > _SAME])
