@@ -17,7 +17,8 @@ from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Mome
 from limitblocks.mechanics.loads.load import Load, vector
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import Control
-from limitblocks.practice.displaced import CLOSED, Assembly, Contact, Truths, moved
+from limitblocks.practice.contact import CLOSED, Contact, Truths
+from limitblocks.practice.displaced import Assembly, moved
 from limitblocks.practice.rejoined import closed_up, joined, meet, parallel, slid
 from limitblocks.shown import coordinates
 

@@ -15,10 +15,10 @@ from limitblocks.evidence.results import Nonassociated
 from limitblocks.joints.base import checked_count
 from limitblocks.mechanics.loads.load import resultant
 from limitblocks.model import Model, checked_model
-from limitblocks.practice import displaced as moving
 from limitblocks.practice.advance import STILL, control_point, farthest, refuse_left_behind, stopped, velocity
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control, to_zero, zero_of
-from limitblocks.practice.displaced import CLOSED, Assembly
+from limitblocks.practice.contact import CLOSED
+from limitblocks.practice.displaced import Assembly, assembly_of
 from limitblocks.practice.kept import gathered
 from limitblocks.practice.snapped import NoRest, held
 from limitblocks.practice.touching import answered, pressed_in
@@ -93,7 +93,7 @@ def _curve(
     model: Model, first: Nonassociated, control: Control, steps: int, largest: float
 ) -> Generator[CapacityPoint, None, str | None]:
     """Yield the points of the curve; return why it ends unless at zero."""
-    assembly, scale = moving.assembly_of(model), first.load_factor
+    assembly, scale = assembly_of(model), first.load_factor
     assembly = pressed_in(assembly, list(range(len(model.interfaces))), first.stress_resultants)
     whole, point = assembly.size, CapacityPoint(0.0, scale, 0.0, model, first, ())
     before: CapacityPoint | None = None
@@ -199,7 +199,7 @@ def _control(model: Model, result: Nonassociated, given: Any) -> Control:
     if given is None:
         speeds, tops = rates[:, :3] @ direction, np.array([b.vertices[:, 2].max() for b in model.blocks])
         tops[speeds < (1.0 - STILL) * speeds.max()] = -np.inf  # of blocks that move as one, the highest
-        block = model.blocks[int((tops >= tops.max() - CLOSED * moving.assembly_of(model).size).argmax())]
+        block = model.blocks[int((tops >= tops.max() - CLOSED * Assembly(model, ()).size).argmax())]
         point = block.vertices
         for way in (np.array([0.0, 0.0, 1.0]), direction):
             ahead = point @ way

@@ -12,11 +12,11 @@ from limitblocks.arrays import Array
 from limitblocks.errors import NoEquilibrium, SolveError
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model, checked_model
-from limitblocks.practice import displaced as moving
 from limitblocks.practice.advance import Advanced, advanced, farthest, refuse_left_behind, shut, stopped
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
-from limitblocks.practice.displaced import CLOSED, Assembly
+from limitblocks.practice.contact import CLOSED
+from limitblocks.practice.displaced import Assembly, assembly_of
 from limitblocks.practice.kept import gathered, solved
 from limitblocks.practice.rejoined import joined
 from limitblocks.practice.settlement import Settlement, settlement
@@ -80,7 +80,7 @@ def settlement_to_collapse(
     """
     checked_model(model)
     refuse_left_behind("settlement until collapse", model, ("dead",))
-    assembly = moving.assembly_of(model)
+    assembly = assembly_of(model)
     size = assembly.size
     step = number(STEP * size if step is None else step, "step", "m", above=0.0)
     accuracy = number(ACCURACY * size if accuracy is None else accuracy, "accuracy", "m", above=0.0)

@@ -16,7 +16,8 @@ from limitblocks.geometry.neighbours import neighbours
 from limitblocks.geometry.overlap import find_overlaps
 from limitblocks.joints import Dowel
 from limitblocks.model import Model
-from limitblocks.practice.displaced import CLOSED, Assembly, Contact, Truths, contact, moved, placed, seated
+from limitblocks.practice.contact import CLOSED, Contact, Truths, contact, placed, seated
+from limitblocks.practice.displaced import Assembly, moved
 from limitblocks.practice.resting import PARALLEL
 from limitblocks.practice.trimmed import trimmed
 

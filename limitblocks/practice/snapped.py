@@ -12,7 +12,8 @@ from limitblocks.joints import Dowel, Guide
 from limitblocks.mechanics.loads.load import resultant
 from limitblocks.practice.advance import Advanced, advanced, carried, moved_until_contact
 from limitblocks.practice.capacity_result import Control
-from limitblocks.practice.displaced import CLOSED, Assembly, Contact
+from limitblocks.practice.contact import CLOSED, Contact
+from limitblocks.practice.displaced import Assembly
 from limitblocks.practice.rejoined import rows_of
 
 TURN = 0.05  # the largest displacement of a round over the size of its block

@@ -17,7 +17,8 @@ from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import clean
 from limitblocks.joints.queries import normal_share
 from limitblocks.model import Model
-from limitblocks.practice.displaced import CLOSED, Assembly, Contact
+from limitblocks.practice.contact import CLOSED, Contact
+from limitblocks.practice.displaced import Assembly
 from limitblocks.practice.kept import solved
 from limitblocks.practice.rejoined import joined
 from limitblocks.practice.trimmed import about_centroid

@@ -13,7 +13,7 @@ from limitblocks.geometry import Block
 from limitblocks.geometry.patches import common_areas, common_part
 from limitblocks.geometry.pieces import convex_pieces
 from limitblocks.geometry.polygon import along_longest_side, centroids
-from limitblocks.practice.displaced import CLOSED, Contact, placed, seated
+from limitblocks.practice.contact import CLOSED, Contact, placed, seated
 from limitblocks.practice.resting import face_at, tilted
 
 GRID = 1e-13  # of the size of the structure: the places of an overlay

@@ -14,7 +14,8 @@ from limitblocks.arrays import read_only
 from limitblocks.practice import CapacityPoint, Control, capacity, capacity_curve
 from limitblocks.practice.advance import moved_until_contact
 from limitblocks.practice.capacity_result import to_zero
-from limitblocks.practice.displaced import CLOSED, assembly_of, moved
+from limitblocks.practice.contact import CLOSED
+from limitblocks.practice.displaced import assembly_of, moved
 from limitblocks.practice.snapped import TIGHT, NoRest, falls, snapped, steepest
 from limitblocks.practice.touching import pressed_in
 

@@ -85,7 +85,7 @@ def test_a_screw_turns_and_shifts_a_point_at_any_angle(angle):
     velocity = np.cross([0.0, 0.0, angle], arm)
     (shift,) = _screw_shift(np.array([[*velocity[:2], pitch, 0.0, 0.0, angle]]))
     # 1 - cos t without cancellation
-    assert shift == pytest.approx([-4.0 * np.sin(angle / 2) ** 2, 2.0 * np.sin(angle), pitch], rel=1e-7)
+    assert shift == pytest.approx([-4.0 * np.sin(angle / 2) ** 2, 2.0 * np.sin(angle), pitch], rel=1e-14)
 
 
 def test_pieces_of_an_opened_joint_do_not_overlap():
