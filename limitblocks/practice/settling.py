@@ -25,7 +25,6 @@ from limitblocks.shown import kept
 
 RIGID = 1e3  # strength of the guides over the weight of the structure
 WIDE = 100.0  # their sides over the size of what moves: paths start at one stiffness per area of all joints
-ROUNDING = 1e-12  # of the dead loads: a smaller difference is none
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +91,7 @@ def settling(model: Model, support: str | Sequence[str], direction: Sequence[flo
     blocks = [block for name in moving for block in model.blocks if block.name == name]
     pulled = sum((Element(own).loads(moving) for own in model.interfaces), Load())
     water = Load(tuple(one for one in model.dead.terms if isinstance(one[1], JointPressure)))
-    at, press = (pulled + water).on(blocks)[:, :3], _pressed(model, moving)
+    at, press = (water + pulled).on(blocks)[:, :3], _pressed(model, moving)
     held = [float((press[name] + on) @ d) for name, on in zip(moving, at, strict=True)]
     reactions = [
         force(one.name, (-part * d).tolist(), one.centroid.tolist())
@@ -107,7 +106,8 @@ def settling(model: Model, support: str | Sequence[str], direction: Sequence[flo
         dead=model.dead + pulled + reaction,
         live=force(moving[0], (weight * d).tolist(), blocks[0].centroid.tolist()),
     )
-    on_supports = dict(zip(moving, (pulled + water + reaction).on(blocks), strict=True))
+    # in the order of the dead loads: the same to the last digit
+    on_supports = dict(zip(moving, (water + pulled + reaction).on(blocks), strict=True))
     return Settling(_as_before(model, freed, on_supports), moving, read_only(d), sum(held), weight)
 
 
@@ -134,11 +134,9 @@ def _as_before(model: Model, freed: Model, on_supports: Mapping[str, Array]) -> 
     wanted = dict(zip((b.name for b in model.free_blocks), model.dead.on(model.free_blocks), strict=True))
     wanted |= on_supports
     free, back = freed.free_blocks, Load()
-    given = freed.dead.on(free)
-    least = ROUNDING * float(np.abs(given[:, :3]).sum())
-    for block, has in zip(free, given, strict=True):
+    for block, has in zip(free, freed.dead.on(free), strict=True):
         off = wanted[block.name] - has
-        if np.abs(off / np.repeat([1.0, block.size], 3)).max() > least:
+        if off.any():
             back += force(block.name, off[:3].tolist(), block.centroid.tolist())
             back += moment(block.name, off[3:].tolist())
     return replace(freed, dead=freed.dead + back)

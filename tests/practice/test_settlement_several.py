@@ -98,6 +98,20 @@ def test_water_and_a_tie_count_on_each_of_them():
     assert found.nonassociated == pytest.approx(stone + water - prestress, rel=1e-7)
 
 
+def test_what_supports_that_settle_are_given_is_what_pulls_and_holds_them():
+    """Loads that stay as they were are not put back, nor is rounding of water, two rods and reactions."""
+    joints = [one for one in PIER.interfaces if "far" in (one.block_i, one.block_j)]
+    wet = replace(PIER, dead=PIER.dead + uplift(PIER, 0.3) + uplift(PIER, 0.7, interfaces=joints, share=0.3))
+    rods = [
+        tie("lintel", (x, 0.1, DEPTH), "far", (x, 0.1, -1), area=1e-4, strength=235e6, prestress=x * 1e3 / 7)
+        for x in (2.7, 2.8)
+    ]
+    wet = reinforced(wet, *rods)
+    terms = settling(wet, ["near", "far"], (0.1, 0.2, -1)).model.dead.terms
+    assert terms[: len(wet.dead.terms)] == wet.dead.terms
+    assert [term.block for _, term in terms[len(wet.dead.terms) :]] == ["far", "far", "near", "far"]
+
+
 def test_several_until_collapse():
     """A beam whose bearing of .2 m, on two stones side by side, slides away below its end."""
     whole = beam_on({"left": (-2.0, -1.6), "right": (1.6, 3.0)}, (-2.0, 1.8), lb.PointContact(0.1))
