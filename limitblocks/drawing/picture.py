@@ -123,7 +123,7 @@ def mechanism_picture(
     anchors = [moved(model, line, scale * rates) - middle for line in lines]
     named = [(states[k] if states else "stick", model.interfaces[k].name) for k, *_ in lines]
     page = _Page.around(np.concatenate([*(body.points for body in (*before, *after)), *anchors]), view)
-    moving = sizes > STILL * max(sizes.max(), 1e-300)
+    moving = sizes > STILL * sizes.max()
     kinds = np.where(model.free, np.where(moving, "moving", "still"), "support").tolist()
     names = [block.name for block in blocks]
     drawn = [_drawn(*each, view, page) for each in zip(names, kinds, faces, after, strict=True)]
@@ -172,7 +172,7 @@ def _drawn(name: str, kind: str, faces: polyhedron.Faces, body: Body, view: Arra
     flat = body.points @ view[:2].T
     bright = body.normals @ LIGHT / np.linalg.norm(LIGHT)
     shades = np.clip(((1.0 - bright) / 2 * SHADES), 0, SHADES - 1).astype(int).tolist()
-    seen = np.flatnonzero(body.normals @ view[2] > 1e-9).tolist()
+    seen = np.flatnonzero(body.normals @ view[2] > 0.0).tolist()
     return Drawn(name, kind, tuple(Face(page.path(flat[list(faces[k])]), shades[k]) for k in seen))
 
 

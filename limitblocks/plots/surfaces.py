@@ -142,7 +142,7 @@ def _around(joint: Queries, interface: Interface, at: tuple[int, int], N: float,
         return np.asarray(np.array(t)[:, None] * rays)
 
     angles = 2.0 * np.pi * np.arange(directions) / directions
-    points = on_curve(np.stack([np.cos(angles), np.sin(angles)], axis=1))
+    points = on_curve(np.stack([np.cos(angles), np.sin(angles)], axis=1).round(15))  # on the axes, too
     points = np.concatenate([points, on_curve(_corners(points))])
     points = points[np.argsort(np.arctan2(points[:, 1], points[:, 0]))]
     return np.asarray(strengths * np.concatenate([points, points[:1]]))
@@ -155,8 +155,7 @@ def _corners(points: Array) -> Array:
     turn = cross(a, b)
     bent = np.abs(turn) > 1e-6 * np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
     met = start + (cross(end - start, b) / np.where(bent, turn, 1.0))[:, None] * a
-    between = (cross(start, met) > 0.0) & (cross(met, end) > 0.0)
-    return np.asarray(met[bent & between])
+    return np.asarray(met[bent])
 
 
 def _with_normal_force(

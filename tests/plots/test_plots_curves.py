@@ -100,6 +100,14 @@ def test_stress_states_keep_their_normal_force_on_a_curve_over_it():
     assert contains(curve(ax, repr(JOINT)), [(-8.0, 8.0 * L2), (-8.0, -8.0 * L2)])
 
 
+def test_a_joint_without_friction_has_a_curve_without_torsion():
+    for names, order in (("M1", "T"), [0, 1]), (("T", "M1"), [1, 0]):
+        ax = lb.plots.interaction(lb.OrdunaLourenco(0.0), RECTANGLE, *names, directions=8)
+        M, T = curve(ax)[:, order].T
+        assert (M.min(), M.max()) == pytest.approx((-L2, L2))
+        assert not T.any()
+
+
 def test_joints_are_compared_on_the_same_axes():
     octagon = lb.OrdunaLourenco(friction=FRICTION, slip="paper")
     ax = lb.plots.interaction(octagon, RECTANGLE, "V1", "V2")
