@@ -182,11 +182,11 @@ def test_a_strip_across_a_joint_that_slides_does_not_bridge_the_way():
 
 
 def test_a_force_at_the_middle_of_a_tie_is_no_prestress_unless_it_is_along_it():
-    """Half a prestress, twice, turns with its tie; a force across it keeps its direction."""
+    """Half a prestress, twice, turns with its tie, as a whole one; a force across keeps its direction."""
     before = lb.loads.force("wall", (1e3, 0, 0), (0, 0, 1))
     after = lb.loads.force("wall", (800, 600, 0), (0, 1, 1))
     across = lb.loads.force("wall", (300, 0, -400), (0, 0, 1))
     pulls = [(before.terms[0][1], after.terms[0][1])]
-    load = 2.0 * lb.loads.force("wall", (500, 0, 0), (0, 0, 1)) + 3.0 * across
+    load = 2.0 * lb.loads.force("wall", (500, 0, 0), (0, 0, 1)) + 3.0 * across + before
     moved = carried_load(load, lambda _, at: np.add(at, (0.1, 0, 0)), pulls)
-    assert moved == after + 3.0 * lb.loads.force("wall", (300, 0, -400), (0.1, 0, 1))
+    assert moved == after + 3.0 * lb.loads.force("wall", (300, 0, -400), (0.1, 0, 1)) + after

@@ -20,6 +20,15 @@ def slabs():
     return model_of(stones, ["ground"], lb.PointContact(0.6))
 
 
+def test_a_road_below_the_stones_by_rounding_is_on_them():
+    slab = lb.Block.prism("slab", [(-1, 0), (1, 0), (1, 0.1 + 0.2), (-1, 0.1 + 0.2)], (-1, 1), 1.0)
+    base = lb.Block.box("ground", (2, 2, 1), (0, 0, -0.5))
+    model = model_of([base, slab], ["ground"], lb.PointContact(0.6))
+    assert slab.vertices.max() > 0.3
+    load = vehicle_load(model, Vehicle((80e3,)), Deck(0.3), 0.0)
+    assert load.on([slab])[0] == pytest.approx([0, 0, -80e3, 0, 0, 0])
+
+
 @pytest.mark.parametrize(("at", "left"), [(0.25, 0.25), (0.0, 0.5), (-0.25, 0.75), (0.75, 0.0)])
 def test_an_axle_spreads_over_its_contact_and_twice_its_way_through_the_fill(at, left):
     """Contact .3 and .7 of fill at 1 in 2: a length of 1 m, shared by both slabs, about its middle."""
