@@ -4,8 +4,21 @@ import numpy as np
 import pytest
 from facades import SITE
 
+from limitblocks.errors import ModelError
 from limitblocks.practice import Floor, FloorMode
-from limitblocks.practice.spectra import Place
+from limitblocks.practice.spectra import Place, ground_acceleration
+
+
+def test_a_ground_acceleration_is_looked_for_within_a_million_times_that_of_the_site():
+    """a_g S is the capacity; a mechanism at its limit has next to none."""
+
+    def found(share):
+        return ground_acceleration(SITE, Place(None, 0.0).acceleration, share * SITE.a_g * SITE.S)
+
+    assert found(0.3) == pytest.approx(0.3 * SITE.a_g, rel=1e-12)
+    assert found(1e-7) == 0.0
+    with pytest.raises(ModelError, match="1e\\+06 times as much does not reach the capacity"):
+        found(1e7)
 
 
 def test_order_of_the_modes_does_not_matter():
