@@ -7,6 +7,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.mechanics.loads import turned
+from limitblocks.mechanics.loads.load import resultant
 
 W, B, H = 40e3, 1.0, 2.0  # one block of 20 kN/m3
 
@@ -130,6 +131,16 @@ def test_a_list_of_loads_has_a_sum():
     assert sum([one, two]) == one + two
     with pytest.raises(lb.ModelError, match="1 cannot be added to a load"):
         sum([one, two], 1)
+
+
+def test_forces_that_cancel_but_for_rounding_have_no_resultant():
+    """.1 + .2 - .3 of a push: what rounding leaves would be the direction of a capacity curve."""
+    blocks = [block(lb.PointContact(0.6), lb.self_weight(), lb.mass_proportional((1, 0, 0))).blocks[1]]
+    push = lb.loads.force("block", (1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    none = 0.1 * push + 0.2 * push - 0.3 * push
+    assert none.on(blocks)[:, :3].any()
+    assert not resultant(none, blocks).any()
+    assert resultant(none + push, blocks)[0] == pytest.approx(1.0)
 
 
 def test_a_load_is_negated_subtracted_and_divided():

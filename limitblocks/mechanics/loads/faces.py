@@ -128,8 +128,6 @@ def integrals(ring: Array, values: Array, normal: Array) -> tuple[float, Array]:
     float, Array of shape (3,)
         Integrals of p dA and of p x dA.
     """
-    if len(ring) < 3:
-        return 0.0, np.zeros(3)
     k = np.arange(1, len(ring) - 1)
     triangles = np.stack([np.zeros_like(k), k, k + 1], axis=1)
     x, p = ring[triangles], values[triangles]
