@@ -93,17 +93,15 @@ def common_areas(first: Any, second: Any, least: Array, grid: float) -> Any:
     """Return the intersections (m,) of polygons, right to the area `least` (m,).
 
     GEOS 3.14 can return the whole of a polygon for its intersection with one that it only shares a side
-    with, or points alone for polygons that share sides but for rounding errors. The order of the corners
-    matters to it, so all is done twice; where the areas differ, a point within is not in both polygons, or
-    nothing is left of polygons that overlap by exact predicates, on a grid.
+    with, or points alone for polygons that share sides but for rounding errors. Where a point within is not
+    in both polygons, or nothing is left of polygons that overlap by exact predicates, all is done again on a
+    grid.
     """
     common = shapely.intersection(first, second)
-    again = shapely.intersection(shapely.normalize(first), shapely.normalize(second))
-    doubtful = np.abs(shapely.area(common) - shapely.area(again)) > least
     within = shapely.point_on_surface(common)
     outside = ~(shapely.intersects(within, first) & shapely.intersects(within, second))
     some = shapely.area(common) > least
-    doubtful |= np.where(some, outside, shapely.relate_pattern(first, second, "T********"))
+    doubtful = np.where(some, outside, shapely.relate_pattern(first, second, "T********"))
     common[doubtful] = shapely.intersection(first[doubtful], second[doubtful], grid_size=grid)
     return common
 

@@ -86,7 +86,7 @@ def _cleaned(shape: Any, tolerance: float) -> Any:
     if len(loops[0]) < 3:
         return shape
     clean = shapely.Polygon(loops[0], [loop for loop in loops[1:] if len(loop) > 2])
-    return clean if clean.is_valid and clean.area > 0.0 else shape
+    return clean if clean.is_valid else shape
 
 
 def _canonical(shape: Any, turn: Array, grid: float) -> tuple[Any, dict[Point, Point]]:
@@ -99,9 +99,8 @@ def _canonical(shape: Any, turn: Array, grid: float) -> tuple[Any, dict[Point, P
     points = shapely.get_coordinates(shape)
     units = np.round((points - middle) @ turn / grid) + 0.0
     flat = shapely.set_coordinates(shape, units)
-    if not shapely.is_valid(
-        flat
-    ):  # a strip narrower than the grid is left out, as where a hole meets the rim
+    # a strip narrower than the grid is left out, as where a hole meets the rim
+    if not shapely.is_valid(flat):
         flat = shapely.make_valid(flat, method="structure", keep_collapsed=False)
         met = shapely.get_coordinates(flat)
         units, points = np.concatenate([met, units]), np.concatenate([middle + grid * met @ turn.T, points])

@@ -136,6 +136,26 @@ def test_inward_faces_of_a_body_with_a_hole_are_refused():
         Block("tube", tube.vertices, [face[::-1] for face in tube.faces])
 
 
+#: Areas that hardly hold together: a neck of 1e-12 m, a hole that meets the rim, or is in a bump of it.
+FRAIL = {
+    "neck": [[(0, 0), (1, 0), (1, 0.5), (2, 0.5), (2, 0), (3, 0.3), (3, 1), (2, 1), (2, 0.5 + 1e-12),
+              (1, 0.5 + 1e-12), (1, 1), (0, 1.1)]],
+    "rim": [[(0, 0), (1, 0), (1, 1), (0, 1)], [(0.3, 0), (0.7, 0.4), (0.3, 0.8)]],
+    "bump": [[(0, 0), (0.5, -0.008), (1, 0), (1, 0.6), (0.5, 1), (0, 1)],
+             [(0.5, -0.004), (0.7, 0.4), (0.3, 0.5)]],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("angle", [4.0, 20.0, 40.0])
+@pytest.mark.parametrize("name", FRAIL)
+def test_an_area_that_hardly_holds_together_is_divided_into_sound_pieces(name, angle):
+    rim, *holes = FRAIL[name]
+    area = shapely.affinity.rotate(shapely.Polygon(rim, holes), angle)
+    pieces, _ = convex_pieces(np.array([area]), np.array([[1.0, 0.0]]), np.array([False]), 1e-2)
+    assert shapely.area(pieces).sum() == pytest.approx(area.area, rel=1e-6)
+    assert shapely.area(pieces).min() > 1e-3
+
+
 def test_an_area_narrower_than_the_tolerance_is_not_lost():
     """An arrow 2 m long and 2 mm wide, notched by 0.4 mm: all of its corners are within 1 cm of a line."""
     arrow = shapely.Polygon([(0, 0), (1, 4e-4), (2, 0), (1, 2e-3)])
