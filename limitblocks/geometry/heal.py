@@ -150,7 +150,7 @@ def _coarse(block: Block, tolerance: float) -> Block:
     solid = solid_of(block, block.vertices)
     quarter = 0.5 * solid.volume() / solid.surface_area()  # of the thickness: a sheet would become a wedge
     simple = solid.set_tolerance(min(tolerance, quarter))
-    if not 4 <= simple.num_tri() < solid.num_tri():
+    if simple.num_tri() >= solid.num_tri():
         return block
     mesh = simple.to_mesh64()
     try:
