@@ -26,7 +26,7 @@ CERTIFIED = 1e-7  # largest residual of stresses that explain why there is no an
 
 
 def explain(problem: LimitProblem, dead: Array) -> None:
-    """Raise UnlimitedLoad where stresses carry the live load alone, or with a little of the dead loads.
+    """Raise UnlimitedLoad where stresses carry the live load with a little of the dead loads.
 
     The stresses `dead` carry those: what the live load does not reach is judged by them, not by rounding.
     """
@@ -41,8 +41,7 @@ def explain(problem: LimitProblem, dead: Array) -> None:
             if not np.isfinite(x).all():
                 break
             x = measured.stress * balanced(measured, measured.dead, x)
-            for loads, stresses in ((pushed, x), (loaded, x + CERTIFIED * dead)):
-                if Residuals(static_residuals(loads, 0.0, stresses)).worst.value <= CERTIFIED:
-                    jammed = np.isinf(load_factor_without_shear(problem, limited=False)[0])
-                    raise UnlimitedLoad(JAMMED if jammed else UNLIMITED)
+            if Residuals(static_residuals(loaded, 0.0, x + CERTIFIED * dead)).worst.value <= CERTIFIED:
+                jammed = np.isinf(load_factor_without_shear(problem, limited=False)[0])
+                raise UnlimitedLoad(JAMMED if jammed else UNLIMITED)
             measured = measured.measured(unmoved(problem, 0.0, x))
