@@ -197,6 +197,16 @@ def balanced(p: Scaled, loads: Array, x: Array) -> Array:
     return Projection(p.C).onto(loads, x)
 
 
+def unpressed(p: Scaled, loads: Array, x: Array) -> Array | None:
+    """Return the nearest stresses in equilibrium that leave blocks without loads alone; None without such."""
+    bare = np.append(~np.any(loads.reshape(-1, 6), axis=1), False)  # the last one is any support
+    if not bare.any():
+        return None
+    carries = ~np.any(bare[p.problem.ends], axis=1)[p.problem.stress_interface]
+    weights = sparse.csr_array(sparse.diags_array(1.0 * carries))
+    return Projection(p.C, weights).onto(loads, np.where(carries, x, 0.0))
+
+
 def compatible(p: Scaled, u: Array, y: Array, solve: Callable[[Array], Array] | None = None) -> Array:
     """Return the nearest multipliers that follow the rates, brought into K; `solve` is for F^T F."""
     across, strain = p.F.T, p.C @ u

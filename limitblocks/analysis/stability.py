@@ -15,7 +15,7 @@ from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.analysis.programs import ROUNDS, solved, solvers
-from limitblocks.analysis.scales import Projection, Scaled, balanced, scaled, unmoved
+from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved, unpressed
 from limitblocks.analysis.unstressed import joint_compliance, may_arise, not_held
 from limitblocks.arrays import Array, Indices, read_only
 from limitblocks.errors import ModelError, NoEquilibrium, SolverFailure
@@ -211,19 +211,12 @@ def _states(problem: LimitProblem, load_factor: float, lowered: Array) -> Iterat
             room = lowered * force[problem.row_interface] / measured.row
             (v,) = solved(Stresses(measured).within(loads, most, room), solver).values
             x, found = v[1:], np.isfinite(v).all()
-            own = (balanced(measured, loads, x), _unpressed(measured, loads, x)) if found else (x,)
-            for x in (measured.stress * one for one in own):
-                yield x, Residuals(static_residuals(problem, load_factor, x)).worst
-            first = unmoved(problem, load_factor, measured.stress * own[0])
-            measured = measured.measured(first) if found else None
-
-
-def _unpressed(p: Scaled, loads: Array, x: Array) -> Array:
-    """Return the nearest stresses in equilibrium of which blocks without loads have none."""
-    bare = np.append(~np.any(loads.reshape(-1, 6), axis=1), False)  # the last one is any support
-    carries = ~np.any(bare[p.problem.ends], axis=1)[p.problem.stress_interface]
-    weights = sparse.csr_array(sparse.diags_array(1.0 * carries))
-    return Projection(p.C, weights).onto(loads, np.where(carries, x, 0.0))
+            own = measured.stress * (balanced(measured, loads, x) if found else x)
+            yield own, Residuals(static_residuals(problem, load_factor, own)).worst
+            if found and (bare := unpressed(measured, loads, x)) is not None:
+                bare = measured.stress * bare
+                yield bare, Residuals(static_residuals(problem, load_factor, bare)).worst
+            measured = measured.measured(unmoved(problem, load_factor, own)) if found else None
 
 
 def _own_loads(problem: LimitProblem) -> Array:

@@ -114,8 +114,8 @@ class SampledStudy(Rows):
     def sobol(self) -> dict[str, tuple[float, float]]:
         """Return first-order and total Sobol index of each parameter.
 
-        Estimators (b) and (f) of Table 2 of Saltelli et al. (2010), Computer Physics Communications 181, which
-        scipy.stats has for two parameters and more.
+        Estimators (b) and (f) of Table 2 of Saltelli et al. (2010), Computer Physics Communications 181,
+        which scipy.stats has for two parameters and more.
 
         Raises
         ------
