@@ -12,10 +12,9 @@ from limitblocks.analysis.magnitudes_of_fills import HEAVY_FILL, of_fills
 from limitblocks.analysis.magnitudes_of_size import of_place, of_size
 from limitblocks.analysis.magnitudes_of_ties import of_ties
 from limitblocks.analysis.magnitudes_of_weight import of_weights
-from limitblocks.geometry import Block, Interface, Tolerances
+from limitblocks.geometry import Block, Tolerances
 from limitblocks.geometry.accuracy import block_length
 from limitblocks.geometry.distance import distance
-from limitblocks.geometry.polygon import cross, following
 from limitblocks.joints import OrdunaLourenco
 from limitblocks.joints.base import joint_of
 from limitblocks.mechanics.loads.fills import Fill
@@ -46,8 +45,6 @@ _FAINT, _FAINT_SHARE = 1e2, 1e-2
 _ASTRAY = 3.0
 #: Share of the median volume below which a block may be debris.
 _DEBRIS = 1e-4
-#: Sine, below 1, of a right angle, and angle, rad, of axes that are off the sides of a rectangle.
-_SQUARE, _ASKEW = 1e-4, 1e-2
 
 
 def questions(model: Model) -> list[str]:
@@ -64,7 +61,6 @@ def questions(model: Model) -> list[str]:
         *_of_forces(model, size),
         *of_fills(model),
         *of_ties(model),
-        *_of_axes(model.interfaces),
         *of_size(size),
         *of_place(corners, size),
     ]
@@ -73,21 +69,6 @@ def questions(model: Model) -> list[str]:
 def weightless(model: Model) -> list[str]:
     """Return the names of the free blocks that weigh nothing."""
     return [block.name for block in model.free_blocks if not block.unit_weight]
-
-
-def _of_axes(interfaces: Sequence[Interface]) -> Iterator[str]:
-    """Return the question for each rectangle, given by hand, whose axes are along none of its sides."""
-    quads = [one for one in interfaces if isinstance(one.joint, OrdunaLourenco) and len(one.polygon) == 4]
-    polygons = np.array([one.polygon for one in quads]).reshape(-1, 4, 2)
-    side = following(polygons) - polygons
-    side /= np.linalg.norm(side, axis=2, keepdims=True)
-    square = cross(side, following(side)).min(axis=1) > 1.0 - _SQUARE
-    off = np.arccos(np.minimum(np.abs(side).max(axis=(1, 2)), 1.0))
-    for k in np.flatnonzero(square & (off > _ASKEW)).tolist():
-        yield (
-            f"interface {quads[k].name}: its axes are {off[k]:.2g} rad off the sides of its rectangle, along "
-            "which Eqs (31)-(32) take them: it has up to 29 % less torsion; turn them"
-        )
 
 
 def of_volumes(blocks: Sequence[Block]) -> list[str]:

@@ -344,32 +344,6 @@ def test_a_force_on_a_block_without_a_unit_weight():
     assert lb.report(model, lb.bounds(model)).text
 
 
-def test_axes_along_the_longest_side_of_what_is_nearly_a_rectangle_are_not_asked_about():
-    """One end of the bed is 0.012 rad off square: no turn of the axes is along all four sides."""
-    outline = [(0.0, 0.0), (1.3, 0.0), (1.3, 0.7), (0.7 * np.tan(0.012), 0.7)]
-    stone = lb.Block.prism("stone", outline, (0.0, 1.0), 20e3, along="z")
-    blocks = [lb.Block.box("ground", (4, 4, 1), (0, 0, -0.5)), stone]
-    interfaces = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.5))
-    push = lb.mass_proportional((1.0, 0.0, 0.0))
-    model = lb.Model(blocks, ["ground"], interfaces, dead=lb.self_weight(), live=push)
-    assert not [one for one in questions(model) if "rad off the sides" in one]
-
-
-@pytest.mark.parametrize(("angle", "asked"), [(0.0, 0), (5e-3, 0), (0.02, 1), (np.pi / 4, 1), (np.pi / 2, 0)])
-def test_axes_off_the_sides_of_a_rectangle_are_asked_about(angle, asked):
-    """Eqs (31)-(32) see the sides of a square along its axes: its diagonals for them take sqrt(2) off."""
-    joint = lb.OrdunaLourenco(0.5)
-    model = block(joint)
-    (own,) = model.interfaces
-    c, s = np.cos(angle), np.sin(angle)
-    turn = np.array([(c, s, 0.0), (-s, c, 0.0), (0.0, 0.0, 1.0)])
-    turned = replace(own, axes=turn @ own.axes, polygon=own.polygon @ turn[:2, :2].T)
-    said = questions(replace(model, interfaces=[turned]))
-    assert len([one for one in said if "rad off the sides" in one]) == asked
-    torsion = [joint.strength(one, (0, 0, 0, 0, 0, 1.0), (0, 0, -1.0, 0, 0, 0)) for one in (own, turned)]
-    assert torsion[1] / torsion[0] == pytest.approx(max(abs(c), abs(s)), abs=1e-6)
-
-
 def test_diagnose_asks_what_reports_and_the_command_line_ask_once():
     model = block(lb.PointContact(30.0))
     found = lb.diagnose(model)
