@@ -24,8 +24,7 @@ def groove(joint, skew=0.0):
     return model_of(stones, ["left", "right"], joint)
 
 
-@pytest.mark.parametrize("skew", [0.0, 0.1])
-@pytest.mark.parametrize("joint", [lb.PointContact, lb.OrdunaLourenco])
+@pytest.mark.parametrize(("joint", "skew"), [(lb.PointContact, 0.0), (lb.OrdunaLourenco, 0.1)])
 def test_it_slides_up_or_jams(joint, skew):
     model = groove(joint(0.9 * JAMS), skew)
     expected = np.tan(SLOPE + np.arctan(0.9 * JAMS))

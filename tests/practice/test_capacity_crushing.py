@@ -50,14 +50,14 @@ def by_hand(turn, size, head, anchor, strength, crushing, prestress=0.0):
 @pytest.mark.parametrize(
     ("case", "steps"),
     [
-        *(({**FACADE, "crushing": strength}, 4) for strength in (1.8e6, 2.3e6, 2.4e6, 2.5e6, 4e6)),
-        *(({**SLENDER, "crushing": 1e6}, steps) for steps in (6, 20, 40)),
-        ({**STOUT, "crushing": 1e6, "prestress": 9e3}, 20),
+        *(({**FACADE, "crushing": strength}, 4) for strength in (1.8e6, 2.4e6, 4e6)),
+        *(({**SLENDER, "crushing": 1e6}, steps) for steps in (6, 20)),
+        ({**STOUT, "crushing": 1e6, "prestress": 9e3}, 10),
         ({**STOUT, "crushing": 3e5}, 8),
     ],
 )
 def test_a_tied_wall_whose_toe_crushes(case, steps):
-    """Strips of the facade carry .02 m of the 4 m: 184 to 200 kN for 2.3 to 2.5 MPa, where 208 are needed.
+    """Strips of the facade carry .02 m of the 4 m: 192 kN for 2.4 MPa, where 208 are needed.
 
     The other ties run down: their lines pass the inner edge of the crushed zone before the toe.
     """
