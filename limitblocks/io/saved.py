@@ -16,7 +16,7 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import Array, Indices, read_only
 from limitblocks.errors import ModelError
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.backward_error import MEANINGS, BackwardError
@@ -151,8 +151,10 @@ def _value(kind: Any, data: Any, name: str) -> Any:
             return None
         (kind,) = (part for part in parts if part is not NoneType)
         return _value(kind, data, name)
-    if origin is np.ndarray:
-        return _flags(data) if np.bool_ in get_args(parts[1]) else _array(data, name)
+    if kind in (Array, Indices):  # aliases since numpy 2.5, whose origin is no class
+        return _array(data, name)
+    if kind == npt.NDArray[np.bool_]:
+        return _flags(data)
     if origin is tuple and isinstance(data, list):
         kinds = [parts[0]] * len(data) if parts[-1] is Ellipsis else parts
         return tuple(_value(part, one, name) for part, one in zip(kinds, data, strict=True))
