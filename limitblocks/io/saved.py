@@ -39,6 +39,7 @@ _NULLS = {"load_factors": inf} | dict.fromkeys(
 )
 _COLUMNS = dict.fromkeys(("stress_resultants", "displacement_rates", "arising", "displacements"), 6)
 _MOST = 1e30  # in size: far beyond any structure, and its powers are still finite
+_Flags = npt.NDArray[np.bool_]
 _STEP = {"step", "kind", "load_factor", "newly_active", "displacements", "stress_resultants"}
 
 
@@ -151,10 +152,8 @@ def _value(kind: Any, data: Any, name: str) -> Any:
             return None
         (kind,) = (part for part in parts if part is not NoneType)
         return _value(kind, data, name)
-    if kind in (Array, Indices):  # aliases since numpy 2.5, whose origin is no class
-        return _array(data, name)
-    if kind == npt.NDArray[np.bool_]:
-        return _flags(data)
+    if kind in (Array, Indices, _Flags):  # aliases since numpy 2.5, whose origin is no class
+        return _flags(data) if kind == _Flags else _array(data, name)
     if origin is tuple and isinstance(data, list):
         kinds = [parts[0]] * len(data) if parts[-1] is Ellipsis else parts
         return tuple(_value(part, one, name) for part, one in zip(kinds, data, strict=True))
@@ -210,7 +209,7 @@ def _array(data: Any, name: str) -> Array:
     return read_only(array.reshape(-1, columns) if columns else array.ravel())
 
 
-def _flags(data: Any) -> npt.NDArray[np.bool_]:
+def _flags(data: Any) -> _Flags:
     flags = np.array(data)
     if flags.dtype != bool or flags.ndim != 1:
         raise Lacking("no array of true and false")
