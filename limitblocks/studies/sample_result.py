@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -112,10 +112,9 @@ class SampledStudy(Rows):
         return {mode: count / sum(counts.values()) for mode, count in counts.items()}
 
     def sobol(self) -> dict[str, tuple[float, float]]:
-        """Return first-order and total Sobol index of each parameter.
+        """Return first-order and total Sobol index of each parameter (Saltelli et al. 2010; scipy.stats).
 
-        Estimators (b) and (f) of Table 2 of Saltelli et al. (2010), Computer Physics Communications 181,
-        which scipy.stats has for two parameters and more.
+        Of one parameter both are 1: all variance is its own.
 
         Raises
         ------
@@ -125,6 +124,8 @@ class SampledStudy(Rows):
             If a row has no finite load factor, or all are one but for the tolerance of bounds: the indices
             are shares of their variance.
         """
+        from scipy.stats import sobol_indices
+
         if not self.indices:
             raise ModelError("the study was not sampled for Sobol indices; use study(..., indices=True)")
         f = self.load_factors.reshape(-1, self.samples)
@@ -135,11 +136,12 @@ class SampledStudy(Rows):
                 f"all load factors are {f[0, 0]:.6g}: no parameter changes them, and there is no variance of "
                 "which Sobol indices are shares"
             )
-        A, B, *mixed = f - f[:2].mean()
-        AB, variance = np.array(mixed), f[:2].var()  # a row of AB is A with one parameter of B
-        first = (B * (AB - A)).mean(axis=1) / variance
-        total = ((A - AB) ** 2).mean(axis=1) / (2.0 * variance)
-        return dict(zip(self.names, zip(first.tolist(), total.tolist(), strict=True), strict=True))
+        if len(self.names) == 1:  # scipy needs two
+            return {self.names[0]: (1.0, 1.0)}
+        func: Mapping[str, Array] = {"f_A": f[0][None], "f_B": f[1][None], "f_AB": f[2:][:, None]}
+        found = sobol_indices(func=func, n=self.samples)  # type: ignore[arg-type] # stubs ask for a plain dict
+        pairs = zip(found.first_order.ravel().tolist(), found.total_order.ravel().tolist(), strict=True)
+        return dict(zip(self.names, pairs, strict=True))
 
     def rows(self) -> list[dict[str, Any]]:
         """Return a row for each analysis, plain numbers and text."""
