@@ -278,3 +278,13 @@ def test_zero_friction_carries_normal_force_and_bending_only():
 def test_bad_settings_are_named(settings, message):
     with pytest.raises(lb.ModelError, match=message):
         lb.OrdunaLourenco(**settings)
+
+
+def test_axes_along_the_sides_but_for_rounding_leave_equation_30_as_it_is():
+    """Its planes have M1 and M2 alike: factors that differ by rounding would tell mirror images apart."""
+    joint = lb.OrdunaLourenco(0.6)
+    dome = lb.structures.dome(joint, radius=2.0, thickness=0.3, courses=3, stones=8)
+    rows = joint.yield_rows(np.array([own.polygon for own in dome.interfaces if len(own.polygon) == 4])).F
+    bending = np.abs(rows[(rows[..., 3] != 0.0) & (rows[..., 4] != 0.0) & (rows[..., 5] != 0.0)])
+    assert len(bending) == 8 * len(rows)
+    assert (bending[:, 3] == bending[:, 4]).all()
