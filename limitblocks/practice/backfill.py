@@ -13,11 +13,11 @@ from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import axes_of
 from limitblocks.joints import Backfill
 from limitblocks.mechanics.loads import Fill
-from limitblocks.mechanics.loads.load import number, place, unit_vector
+from limitblocks.mechanics.loads.load import horizontal, number, place, unit_vector
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.elements import CORNERS, Element
 
-STEEP = 1e-9  # slope of a face along the deck, or of the deck, that counts as none
+STEEP = 1e-9  # slope of a face along the deck that counts as none
 
 
 def passive_fill(
@@ -69,9 +69,7 @@ def passive_fill(
     checked_model(model)
     number(coefficient, "coefficient of passive pressure", "", above=0.0)
     number(unit_weight, "unit weight of fill", "N/m3", above=0.0)
-    d, names = np.array(unit_vector(along, "direction along the deck")), sequence_of("blocks", blocks, str)
-    if abs(d[2]) > STEEP:
-        raise ModelError(f"direction along the deck is {along!r}, expected a horizontal one")
+    d, names = np.array(horizontal(along, "direction along the deck")), sequence_of("blocks", blocks, str)
     side = (
         None if beyond is None else place(beyond, "fill: beyond"),
         None if towards is None else unit_vector(towards, "fill: towards"),

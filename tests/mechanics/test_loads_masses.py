@@ -109,6 +109,11 @@ def test_a_tilting_angle_in_degrees_is_refused():
     assert len(tilt.at(np.pi / 2).terms) == 2
 
 
+def test_a_horizontal_direction_may_rise_by_rounding():
+    turned = lb.loads.tilting((3.0, 4.0, 1e-16)).at(0.3)
+    assert turned == lb.loads.tilting((3.0, 4.0, 0.0)).at(0.3)
+
+
 @pytest.mark.parametrize("direction", [(1, 0, 0.1), (0, 0, 0), (0, 0, 1)])
 def test_tilting_towards_no_horizontal_direction_is_refused(direction):
     with pytest.raises(lb.ModelError, match="direction"):

@@ -18,6 +18,7 @@ from limitblocks.mechanics.loads.load import (
     Place,
     Vector,
     along,
+    horizontal,
     keep,
     names_of,
     number,
@@ -31,7 +32,6 @@ from limitblocks.shown import coordinate, coordinates
 
 UP = np.array([0.0, 0.0, 1.0])
 _NONE = 1e-12  # of a block's size cubed: less fill is what rounding leaves between shadows that meet
-_LEVEL = 1e-9  # rise of a unit vector that counts as horizontal
 
 
 @dataclass(frozen=True)
@@ -57,8 +57,8 @@ class Fill:
         )
         if (self.beyond is None) != (self.towards is None):
             raise ModelError("fill: beyond a place and towards a direction are given together, or neither")
-        if self.towards is not None and abs(unit_vector(self.towards, "fill: towards")[2]) > _LEVEL:
-            raise ModelError(f"fill: towards is {self.towards}, expected a horizontal direction, (x, y, 0)")
+        if self.towards is not None:
+            horizontal(self.towards, "fill: towards")
 
     def on(self, blocks: Sequence[Block]) -> Array:
         """Return forces and moments at the centroids, shape (n, 6)."""

@@ -12,6 +12,7 @@ from limitblocks.arrays import Array, as_typed, real, reals_if_any
 from limitblocks.errors import ModelError, few, near, sequence_of
 from limitblocks.geometry import Block
 
+_LEVEL = 1e-9  # rise of a unit vector that counts as horizontal
 _LARGEST = 1e30  # as in a model file: its powers are still numbers
 Vector = tuple[float, float, float]
 Place = tuple[float, float]
@@ -111,6 +112,14 @@ def unit_vector(values: Sequence[float], word: str) -> Vector:
     if length == 0.0:
         raise ModelError(f"{word} is (0, 0, 0), expected a non-zero vector")
     return x / length, y / length, z / length
+
+
+def horizontal(values: Sequence[float], word: str) -> Vector:
+    """Return a horizontal direction brought to unit length; ModelError where it rises or cannot be."""
+    x, y, z = unit_vector(values, word)
+    if abs(z) > _LEVEL:
+        raise ModelError(f"{word} is {(*map(float, values),)}, expected a horizontal direction, (x, y, 0)")
+    return x, y, 0.0
 
 
 def number(

@@ -12,7 +12,7 @@ from limitblocks.arrays import Array, as_typed, read_only, real
 from limitblocks.errors import ModelError
 from limitblocks.joints.base import checked_count
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, mass_proportional, self_weight
-from limitblocks.mechanics.loads.load import Load, unit_vector, vector
+from limitblocks.mechanics.loads.load import Load, horizontal, unit_vector
 from limitblocks.shown import coordinates
 
 
@@ -103,7 +103,5 @@ def tilting(direction: Sequence[float], added: Sequence[AddedMass] = ()) -> Tilt
     ModelError
         If the direction is zero or not horizontal.
     """
-    x, y, z = vector(direction, "tilting: direction")
-    if z != 0.0:
-        raise ModelError(f"tilting: direction is {(x, y, z)}, expected a horizontal one, (x, y, 0)")
-    return Tilting(self_weight(added), mass_proportional((x, y, 0.0), added))
+    along = horizontal(direction, "tilting: direction")
+    return Tilting(self_weight(added), mass_proportional(along, added))
