@@ -20,7 +20,7 @@ def wall():
 
 
 def corner():
-    return structures.corner(lb.OrdunaLourenco(0.8), length=1.6, return_length=1.6, courses=4)
+    return structures.corner(lb.OrdunaLourenco(0.6), length=1.6, return_length=1.6, courses=2)
 
 
 def solution():
@@ -31,7 +31,7 @@ def solution():
     return flow, state_of(model, model.problem, found)
 
 
-@pytest.mark.parametrize(("build", "budget"), [(wall, 300), (corner, 800)], ids=["in the plane", "in space"])
+@pytest.mark.parametrize(("build", "budget"), [(wall, 300), (corner, 400)], ids=["in the plane", "in space"])
 def test_a_push_without_end_leads_from_the_last_increment_to_a_collapse(build, budget, monkeypatch):
     model, short = build(), lb.settings.Settings(budget=budget)
     path, whole = lb.load_path(model, settings=short), lb.load_path(build())
@@ -136,7 +136,7 @@ def test_a_push_without_end_that_the_user_stops_leaves_the_increments():
             raise KeyboardInterrupt
 
     with pytest.raises(lb.NotConverged, match="interrupted") as caught:
-        lb.load_path(model, settings=lb.settings.Settings(budget=500), progress=press)
+        lb.load_path(model, settings=lb.settings.Settings(budget=300), progress=press)
     assert caught.value.result.how == "increments of the load path, interrupted"
 
 
