@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy import sparse
 
 from limitblocks.arrays import Array, as_typed, read_only, real
 from limitblocks.errors import ModelError
@@ -17,7 +18,7 @@ from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Mome
 from limitblocks.mechanics.loads.load import Load, vector
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import Control
-from limitblocks.practice.contact import CLOSED, Contact, Truths
+from limitblocks.practice.contact import CLOSED, DisplacedContacts, Truths, bond
 from limitblocks.practice.displaced import Assembly, moved
 from limitblocks.practice.rejoined import closed_up, joined, meet, parallel, slid
 from limitblocks.shown import coordinates
@@ -99,15 +100,13 @@ def shut(there: Advanced, numbers: Collection[int]) -> Advanced | None:
 
     Supports stay. A contact that opened on the way has not; another one closes.
     """
-    assembly, least = there.assembly, 10.0 * CLOSED * there.assembly.size
-    held = [
-        ((own.ways[:, 2] <= least) | (k in numbers)) & own.rigid for k, own in enumerate(assembly.contacts)
-    ]
-    goal, left = closed_up(assembly, held, [False] * len(held))
-    meets = any(own.rigid and own.ways[:, 2].min() < -least for own in goal.contacts)
+    assembly, own = there.assembly, there.assembly.contacts
+    held = (assembly.closed | np.isin(own.of, list(numbers))) & own.rigid[own.of]
+    goal, left = closed_up(assembly, held, np.zeros(len(own), dtype=bool))
+    meets = (goal.contacts.least[own.rigid] < -10.0 * CLOSED * assembly.size).any()
     if left > CLOSED * assembly.size or meets or meet(goal):
         return None
-    names = [assembly.contacts[k].interface.name for k in numbers]
+    names = [own.interfaces[k].name for k in numbers]
     said = [one for one in there.changes if one not in {f"{name} opens" for name in names}]
     said += [f"{name} closes" for name in names if f"{name} opens" not in there.changes]
     return replace(there, assembly=goal, changes=tuple(said))
@@ -126,107 +125,90 @@ def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assem
     The contacts that the displacements do not open are brought together again. None if it is stuck.
     """
     held, sliding, yielding = _motion(assembly, displacements)
-    for k in _at_odds(assembly, displacements, held, sliding):
-        held[k] = np.zeros(1, dtype=bool)
-        yielding.add(k)
-    was, least = [own.ways[:, 2] for own in assembly.contacts], 10.0 * CLOSED * assembly.size
-    rigid = np.concatenate(
-        [np.full(len(own.on_i), own.rigid and k not in yielding) for k, own in enumerate(assembly.contacts)]
-    )
-    share, before, trials = 1.0, np.concatenate(was), 0
+    at_odds = _at_odds(assembly, displacements, held, sliding)
+    own, yielding = assembly.contacts, yielding | at_odds
+    held &= ~at_odds[own.of]
+    before, least = own.ways[:, 2], 10.0 * CLOSED * assembly.size
+    rigid, share, trials = (own.rigid & ~yielding)[own.of], 1.0, 0
     while share >= SHORTEST:
         goal, left = closed_up(moved(assembly, share * displacements), held, sliding, displacements)
-        gap = np.concatenate([own.ways[:, 2] for own in goal.contacts])
+        gap = goal.contacts.ways[:, 2]
         meets = rigid & (gap < -least)
         closes = rigid & (before > least) & (gap < np.minimum(TOUCH * assembly.size, 0.1 * before))
         if closes.any() and not (meets & ~closes).any() and gap[closes].min() > -TOUCH * assembly.size:
-            ends = np.cumsum([len(own) for own in held])[:-1]
-            both = [one | two for one, two in zip(held, np.split(closes, ends), strict=True)]
-            goal, left = closed_up(goal, both, sliding)
+            goal, left = closed_up(goal, held | closes, sliding)
             meets &= ~closes
         if left <= CLOSED * assembly.size and not meets.any() and not meet(goal):
-            now = [own.ways[:, 2] for own in goal.contacts]
-            contacts = [own.yielded if k in yielding else own for k, own in enumerate(goal.contacts)]
-            goal = replace(goal, contacts=tuple(contacts))
+            changes = _changes(own, before, goal.contacts.ways[:, 2], least)
+            goal = replace(goal, contacts=goal.contacts.yielded(yielding))
             goal, lost = _parted(goal, sliding, least)
             there, said = slid(goal, sliding)
-            changes = _changes(assembly, was, now, least) + lost + said
-            return there, tuple(dict.fromkeys(changes))  # pieces of an area share a name
+            return there, tuple(dict.fromkeys(changes + lost + said))  # pieces of an area share a name
         closes &= meets
         secant = (before[closes] / (before - gap)[closes]).min() if closes.any() else 0.5
         share, trials = share * (secant if trials < SECANTS else min(secant, 0.5)), trials + 1
     return None
 
 
-def _parted(assembly: Assembly, sliding: list[bool], least: float) -> tuple[Assembly, tuple[str, ...]]:
+def _parted(assembly: Assembly, sliding: Truths, least: float) -> tuple[Assembly, tuple[str, ...]]:
     """The structure without the bond of the contacts that have opened or slide, and a sentence for each."""
-    moves = [
-        slides or own.ways[:, 2].max() > least for own, slides in zip(assembly.contacts, sliding, strict=True)
-    ]
-    lost = [bool(own.bond) and one for own, one in zip(assembly.contacts, moves, strict=True)]
-    if not any(lost):
+    own = assembly.contacts
+    lost = (sliding | own.any(own.ways[:, 2] > least)) & [bool(bond(one.joint)) for one in own.interfaces]
+    if not lost.any():
         return assembly, ()
-    contacts = [own.parted if one else own for own, one in zip(assembly.contacts, lost, strict=True)]
-    said = [f"{own.interface.name} loses its bond" for own, one in zip(contacts, lost, strict=True) if one]
-    return Assembly(joined(assembly, contacts), tuple(contacts)), tuple(said)
+    contacts = own.parted(lost)
+    said = tuple(f"{own.interfaces[k].name} loses its bond" for k in np.flatnonzero(lost))
+    return Assembly(joined(assembly, contacts), contacts), said
 
 
-def _motion(assembly: Assembly, rates: Array) -> tuple[list[Truths], list[bool], set[int]]:
-    """Which corners of each contact are closed and stay so, which contacts slide, and ties that yield."""
-    centres = np.stack([block.centroid for block in assembly.model.blocks])
-    least = STILL * largest_rate(assembly.model, rates)
-    motions: list[tuple[Contact, Array, Truths]] = []
-    for own in assembly.contacts:
-        speeds = [
-            rates[k, :3] + np.cross(rates[k, 3:], points - centres[k])
-            for k, points in zip(own.ends, (own.on_i, own.on_j), strict=True)
-        ]
-        relative = (speeds[1] - speeds[0]) @ own.interface.axes.T
-        if own.tied:
-            relative[:, 2] *= -1.0  # its gap is what it is slack
-        motions.append((own, relative, own.ways[:, 2] <= 10.0 * CLOSED * assembly.size))
-    held, sliding, yielding = [], [], set()
-    for number, ((own, relative, shut), slowest) in enumerate(zip(motions, _last(motions), strict=True)):
-        closed = shut & (relative[:, 2] <= max(slowest, 0.0) + least)
-        if own.tied and (closed & (relative[:, 2] < -least)).any():
-            yielding.add(number)
-        held.append(closed & own.rigid & (number not in yielding))
-        sliding.append(bool((np.linalg.norm(relative[closed, :2], axis=1) > least).any()) and not own.tied)
-    return held, sliding, yielding
-
-
-def _last(motions: list[tuple[Contact, Array, Truths]]) -> list[float]:
-    """Speeds at which the closed corners of pressed joints open that do so last; 0 of others.
-
-    A strip along closed corners turns about its other edge: what is pressed there opens nowhere, be it in
-    one piece or in several between the same blocks.
-    """
-    pieces: dict[tuple[int, int], list[tuple[Contact, float]]] = {}
-    for own, relative, shut in motions:
-        if not own.tied:
-            pieces.setdefault(own.ends, []).append((own, relative[shut, 2].min(initial=np.inf)))
-    return [
-        min(slowest for one, slowest in pieces[own.ends] if parallel(one.axes_i, own.axes_i))
-        if own.pressed and not own.tied
-        else 0.0
-        for own, _, _ in motions
+def _motion(assembly: Assembly, rates: Array) -> tuple[Truths, Truths, Truths]:
+    """Which corners (k,) are closed and stay so, which contacts (m,) slide, and which are ties that yield."""
+    own, least = assembly.contacts, STILL * largest_rate(assembly.model, rates)
+    speeds = [
+        rates[k, :3] + np.cross(rates[k, 3:], points - assembly.centres[k])
+        for k, points in zip(own.ends[own.of].T, (own.on_i, own.on_j), strict=True)
     ]
+    axes = np.stack([one.axes for one in own.interfaces])
+    relative = np.einsum("kab,kb->ka", axes[own.of], speeds[1] - speeds[0])
+    relative[own.tied[own.of], 2] *= -1.0  # its gap is what it is slack
+    slowest = _last(own, np.minimum.reduceat(np.where(assembly.closed, relative[:, 2], np.inf), own.first))
+    closed = assembly.closed & (relative[:, 2] <= np.maximum(slowest, 0.0)[own.of] + least)
+    yielding = own.tied & own.any(closed & (relative[:, 2] < -least))
+    slides = closed & (np.linalg.norm(relative[:, :2], axis=1) > least)
+    return closed & (own.rigid & ~yielding)[own.of], own.any(slides) & ~own.tied, yielding
 
 
-def _at_odds(assembly: Assembly, rates: Array, held: list[Truths], sliding: list[bool]) -> set[int]:
-    """Taut ties that crushing does not lengthen but the motion does, by number: they go with the motion.
+def _last(own: DisplacedContacts, opens: Array) -> Array:
+    """Speeds at which the closed corners of pressed joints open that do so last, shape (m,); 0 of others.
+
+    `opens`, shape (m,), are the least of their own closed corners. A strip along closed corners turns about
+    its other edge: what is pressed there opens nowhere, be it in one piece or in several between the same
+    blocks.
+    """
+    pairs = np.unique(own.ends, axis=0, return_inverse=True)[1].reshape(-1)
+    of_pair = sparse.csr_array((np.ones(len(pairs)), (np.arange(len(pairs)), pairs)))
+    piece, other = (of_pair @ of_pair.T).nonzero()
+    kept = ~own.tied[other] & parallel(own.axes_i[piece], own.axes_i[other])
+    last = np.full(len(pairs), np.inf)
+    np.minimum.at(last, piece[kept], opens[other[kept]])
+    return np.where(own.pressed & ~own.tied, last, 0.0)
+
+
+def _at_odds(assembly: Assembly, rates: Array, held: Truths, sliding: Truths) -> Truths:
+    """Taut ties (m,) that crushing does not lengthen but the motion does: they go with the motion.
 
     A joint that crushes turns about the inner edge of what is crushed, in the finite motion about the toe.
     """
-    least = 10.0 * CLOSED * assembly.size
-    taut = {k for k, own in enumerate(assembly.contacts) if own.tied and own.ways[0, 2] <= least}
-    joints = [own.interface.joint for own in assembly.contacts if own.ways[:, 2].min() <= least]
-    if not taut or all(getattr(joint, "compressive_strength", None) is None for joint in joints):
-        return set()
+    own = assembly.contacts
+    shut = own.any(assembly.closed)
+    joints = [own.interfaces[k].joint for k in np.flatnonzero(shut)]
+    taut = own.tied & shut
+    if not taut.any() or all(getattr(joint, "compressive_strength", None) is None for joint in joints):
+        return np.zeros_like(taut)
     way, (start, _) = PROBE * assembly.size, closed_up(assembly, held, sliding)
     probe = moved(start, way / largest_rate(assembly.model, rates) * rates)
-    was, now = start.contacts, closed_up(probe, held, sliding, rates)[0].contacts
-    return {k for k in taut if now[k].ways[0, 2] < min(was[k].ways[0, 2], 0.0) - AT_ODDS * way}
+    now = closed_up(probe, held, sliding, rates)[0].contacts
+    return taut & (now.least < np.minimum(start.contacts.least, 0.0) - AT_ODDS * way)
 
 
 def carried(assembly: Assembly, goal: Assembly, control: Control) -> Control:
@@ -245,12 +227,12 @@ def velocity(model: Model, control: Control, rates: Array) -> Array:
     return np.asarray(rates[k, :3] + np.cross(rates[k, 3:], arm))
 
 
-def _changes(assembly: Assembly, was: list[Array], now: list[Array], least: float) -> tuple[str, ...]:
-    """Sentences on the contacts that opened or closed."""
+def _changes(own: DisplacedContacts, before: Array, after: Array, least: float) -> tuple[str, ...]:
+    """Sentences on the contacts that opened or closed, by the gaps (k,) of their corners."""
+    closes, opens = own.any((before > least) & (after <= least)), own.any((before <= least) & (after > least))
     said = []
-    for own, before, after in zip(assembly.contacts, was, now, strict=True):
-        closes, opens = ("is taut again", "goes slack") if own.tied else ("closes", "opens")
-        shut, opened = (before > least) & (after <= least), (before <= least) & (after > least)
-        said += [f"{own.interface.name} {closes}"] if shut.any() else []
-        said += [f"{own.interface.name} {opens}"] if opened.any() else []
+    for k in np.flatnonzero(closes | opens):
+        words = ("is taut again", "goes slack") if own.tied[k] else ("closes", "opens")
+        found = zip(words, (closes[k], opens[k]), strict=True)
+        said += [f"{own.interfaces[k].name} {word}" for word, true in found if true]
     return tuple(said)

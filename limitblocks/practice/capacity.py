@@ -18,7 +18,7 @@ from limitblocks.model import Model, checked_model
 from limitblocks.practice.advance import STILL, control_point, farthest, refuse_left_behind, stopped, velocity
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control, to_zero, zero_of
 from limitblocks.practice.contact import CLOSED
-from limitblocks.practice.displaced import Assembly, assembly_of
+from limitblocks.practice.displaced import Assembly, assembly_of, size_of
 from limitblocks.practice.kept import gathered
 from limitblocks.practice.snapped import NoRest, held
 from limitblocks.practice.touching import answered, pressed_in
@@ -199,7 +199,7 @@ def _control(model: Model, result: Nonassociated, given: Any) -> Control:
     if given is None:
         speeds, tops = rates[:, :3] @ direction, np.array([b.vertices[:, 2].max() for b in model.blocks])
         tops[speeds < (1.0 - STILL) * speeds.max()] = -np.inf  # of blocks that move as one, the highest
-        block = model.blocks[int((tops >= tops.max() - CLOSED * Assembly(model, ()).size).argmax())]
+        block = model.blocks[int((tops >= tops.max() - CLOSED * size_of(model)).argmax())]
         point = block.vertices
         for way in (np.array([0.0, 0.0, 1.0]), direction):
             ahead = point @ way

@@ -91,7 +91,7 @@ def settlement_to_collapse(
     control = Control(first, place, unit)
 
     def found(there: Assembly) -> Settlement:
-        now = joined(there, [there.contacts[k] for k in there.tight])
+        now = joined(there, there.contacts[there.tight])
         answer = partial(settlement, now, own.supports, unit.tolist(), without_dilatancy=without_dilatancy)
         return replace(solved(answer), digest=model.digest)
 
@@ -150,10 +150,11 @@ def _bears(assembly: Assembly, found: Settlement) -> bool:
     moving = found.settling.supports
     forces = (found.result or found.bounds).stress_resultants
     resultant = np.zeros(3)
-    for k, force in zip(assembly.tight, forces, strict=False):  # guides come last
-        own = assembly.contacts[k]
-        sign = (own.interface.block_i in moving) - (own.interface.block_j in moving)
-        resultant += sign * force[:3] @ own.interface.axes
+    for own, force in zip(
+        assembly.contacts[assembly.tight].interfaces, forces, strict=False
+    ):  # guides come last
+        sign = (own.block_i in moving) - (own.block_j in moving)
+        resultant += sign * force[:3] @ own.axes
     return float(np.linalg.norm(resultant)) > CLOSED * found.settling.unit
 
 

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import Array, Indices, repeated
 from limitblocks.geometry import Block, Interface
+from limitblocks.geometry.ends import ends_of
 from limitblocks.joints import Dowel, Tie
-from limitblocks.practice.resting import half_way, resting_axes, rims_at
+from limitblocks.practice.resting import half_way, rims_at
 
 CLOSED = 1e-9  # gap over the size of the structure that counts as none
 RIM = 1e-6  # of the size of a joint: a corner as near to the rim of a face is at it
@@ -25,45 +26,89 @@ Truths = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
-class Contact:
-    """An interface as each of its blocks sees it.
+class DisplacedContacts:
+    """Interfaces as each of their blocks sees them: m of them, with k corners in a row.
 
     Attributes
     ----------
-    interface : Interface
-        With its polygon and joint, on the face that it rests on; half way where edges meet.
-    ends : tuple of int
+    interfaces : tuple of Interface
+        With their polygons and joints, on the faces that they rest on; half way where edges meet.
+    ends : Indices, shape (m, 2)
         Blocks i and j, in model order.
     on_i, on_j : Array, shape (k, 3)
-        Its corners as material points of block i and of block j, global axes, m; they coincide where it is
-        closed. A tie has its two anchors, a dowel the point where it crosses the joint, k times.
-    taut : float
-        Distance of the anchors of a tie at which it is taut, m: as it was first, and more once it has
-        yielded. What a strip has, which is between points that coincide, is along the normal of its joint.
-    axes_i, axes_j : Array, shape (3, 3)
-        Its axes as they turn with block i and with block j.
+        Corners as material points of blocks i and of blocks j, global axes, m; they coincide where closed. A
+        tie has one, its two anchors; a dowel has the point where it crosses the joint as often as corners.
+    axes_i, axes_j : Array, shape (m, 3, 3)
+        Axes as they turn with blocks i and with blocks j.
     rims_i, rims_j : Array, shape (k, s, 2)
         The rims of both faces at the corners (:func:`~.resting.rims_at`), as the contact was last
         :func:`seated`; NaN at corners that were open.
-    pressed : bool
-        Whether it carried a force at the last answer: it does not slide while the structure falls.
+    pressed : Truths, shape (m,)
+        Which carried a force at the last answer: these do not slide while the structure falls.
+    taut : Array, shape (m,)
+        Distance of the anchors of a tie at which it is taut, m: as it was first, and more once it has
+        yielded. What a strip has, which is between points that coincide, is along the normal of its joint.
     """
 
-    interface: Interface
-    ends: tuple[int, int]
+    interfaces: tuple[Interface, ...]
+    ends: Indices
     on_i: Array
     on_j: Array
     axes_i: Array
     axes_j: Array
     rims_i: Array
     rims_j: Array
-    pressed: bool = False
-    taut: float = 0.0
+    pressed: Truths
+    taut: Array
+
+    @property
+    def interface(self) -> Interface:
+        """The interface of a single contact."""
+        (own,) = self.interfaces
+        return own
+
+    def __len__(self) -> int:
+        return len(self.interfaces)
+
+    def __getitem__(self, which: int | Sequence[int] | Indices | Truths) -> DisplacedContacts:
+        """Return some of the contacts, in any order."""
+        numbers = np.atleast_1d(np.arange(len(self))[which])
+        part, position = repeated(np.bincount(self.of)[numbers])
+        corners = self.first[numbers][part] + position
+        interfaces = tuple(self.interfaces[k] for k in numbers)
+        taken = {key: getattr(self, key)[corners if key in OF_CORNERS else numbers] for key in ARRAYS}
+        return DisplacedContacts(interfaces, **taken)
+
+    @cached_property
+    def tied(self) -> Truths:
+        """Which are ties, shape (m,)."""
+        return np.array([isinstance(own.joint, Tie) for own in self.interfaces], dtype=bool)
+
+    @cached_property
+    def rigid(self) -> Truths:
+        """Where a gap never turns negative, shape (m,): not of a dowel, which keeps none."""
+        return np.array([not isinstance(own.joint, Dowel) for own in self.interfaces])
+
+    @cached_property
+    def of(self) -> Indices:
+        """Contact of each corner, shape (k,)."""
+        corners = np.array([len(own.polygon) for own in self.interfaces], dtype=np.int64)
+        return repeated(np.where(self.tied, 1, corners))[0]
+
+    @cached_property
+    def first(self) -> Indices:
+        """First corner of each contact, shape (m,)."""
+        return np.flatnonzero(np.diff(self.of, prepend=-1))
 
     @cached_property
     def half_way(self) -> Array:
-        """Axes half way between both blocks, shape (3, 3)."""
+        """Axes half way between both blocks, shape (m, 3, 3)."""
         return half_way(self.axes_i, self.axes_j)
+
+    @cached_property
+    def hinge(self) -> Array:
+        """Where the planes of both faces cross, times the sine of their angle, shape (m, 3)."""
+        return np.cross(self.axes_i[:, 2], self.axes_j[:, 2])
 
     @cached_property
     def on_face_i(self) -> Truths:
@@ -72,15 +117,15 @@ class Contact:
         The faces come nearer across the hinge. The one whose rim there faces that way more ends, and rests on
         the other; where both end, that of j rests where it is farther: the separating axis of convex bodies.
         """
-        way, hinge = self.on_j - self.on_i, np.cross(self.axes_i[2], self.axes_j[2])
-        farther = way @ self.axes_i[2] >= way @ self.axes_j[2]
-        nearer = np.cross(hinge, self.axes_i[2] + self.axes_j[2])
-        nearer = nearer / max(float(np.linalg.norm(nearer)), 1e-300)
+        normals = np.stack([self.axes_i[:, 2], self.axes_j[:, 2]])
+        off_i, off_j = np.einsum("ka,ska->sk", self.on_j - self.on_i, normals[:, self.of])
+        nearer = np.cross(self.hinge, normals.sum(axis=0))
+        nearer /= np.maximum(np.linalg.norm(nearer, axis=1, keepdims=True), 1e-300)
         end_i, end_j = (
-            (rims @ (axes[:2] @ nearer)).max(axis=1)
+            np.einsum("ksa,kab,kb->ks", rims, axes[self.of, :2], nearer[self.of]).max(axis=1)
             for rims, axes in ((self.rims_i, self.axes_i), (self.rims_j, self.axes_j))
         )  # NaN where a corner was open
-        return np.asarray((end_j > end_i + EVEN) | (farther & ~(end_i > end_j + EVEN)))
+        return np.asarray((end_j > end_i + EVEN) | ((off_i >= off_j) & ~(end_i > end_j + EVEN)))
 
     @cached_property
     def axes(self) -> Array:
@@ -88,11 +133,9 @@ class Contact:
 
         The last of a tie points from block j to block i: its gap is what it is slack.
         """
-        if self.tied:
-            return np.concatenate([self.half_way[:2], -self.line[None]])[None]
-        normal = np.where(self.on_face_i[:, None], self.axes_i[2], self.axes_j[2])
-        sides = np.broadcast_to(self.half_way[:2], (len(normal), 2, 3))
-        return np.concatenate([sides, normal[:, None]], axis=1)
+        normal = np.where(self.on_face_i[:, None], self.axes_i[self.of, 2], self.axes_j[self.of, 2])
+        normal = np.where(self.tied[self.of, None], -self.line[self.of], normal)
+        return np.concatenate([self.half_way[self.of, :2], normal[:, None]], axis=1)
 
     @cached_property
     def rest(self) -> Array:
@@ -101,106 +144,93 @@ class Contact:
 
     @cached_property
     def line(self) -> Array:
-        """Direction of a tie from block i to block j, shape (3,); a strip is normal to its joint."""
-        joint: Any = self.interface.joint
-        way = self.on_j[0] - self.on_i[0] if joint.length else self.half_way[2]
-        return np.asarray(way / np.linalg.norm(way))
+        """Direction of ties from block i to block j, shape (m, 3); a strip is normal to its joint."""
+        long = np.array([bool(getattr(own.joint, "length", 0.0)) for own in self.interfaces])
+        way = np.where(long[:, None], (self.on_j - self.on_i)[self.first], self.half_way[:, 2])
+        return np.asarray(way / np.linalg.norm(way, axis=1, keepdims=True))
 
     @cached_property
     def ways(self) -> Array:
         """Way from the corners on i to those on j along their axes, m, shape (k, 3); the gap comes last."""
-        slack = np.array([0.0, 0.0, self.taut])
+        slack = np.outer(self.taut[self.of], [0.0, 0.0, 1.0])
         return np.asarray(np.einsum("kab,kb->ka", self.axes, self.on_j - self.on_i) + slack)
 
-    @property
-    def yielded(self) -> Contact:
-        """The tie as long as it is now; a large step may have shortened one that yields at its start."""
-        return replace(self, taut=self.taut - min(float(self.ways[0, 2]), 0.0))
+    @cached_property
+    def least(self) -> Array:
+        """Least gap of each contact, m, shape (m,)."""
+        return np.minimum.reduceat(self.ways[:, 2], self.first)
 
-    @property
-    def tied(self) -> bool:
-        """True of a tie."""
-        return isinstance(self.interface.joint, Tie)
+    def any(self, corners: Truths) -> Truths:
+        """Which contacts have any of the corners (k,), shape (m,)."""
+        return np.logical_or.reduceat(corners, self.first)
 
-    @property
-    def rigid(self) -> bool:
-        """True where a gap never turns negative: not of a dowel, which keeps none."""
-        return not isinstance(self.interface.joint, Dowel)
+    def yielded(self, which: Truths) -> DisplacedContacts:
+        """Return the contacts, some ties (m,) as long as they are; a large step may have shortened one."""
+        return replace(self, taut=self.taut - np.where(which, np.minimum(self.least, 0.0), 0.0))
 
-    @property
-    def bond(self) -> tuple[str, ...]:
-        """Names of the strengths that its joint has by a bond."""
-        return tuple(name for name in BOND if getattr(self.interface.joint, name, 0.0))
-
-    @property
-    def parted(self) -> Contact:
-        """The contact without its bond."""
-        joint: Any = self.interface.joint
-        bare = replace(joint, **dict.fromkeys(self.bond, 0.0)) if self.bond else joint
-        return replace(self, interface=replace(self.interface, joint=bare))
+    def parted(self, which: Truths) -> DisplacedContacts:
+        """Return the contacts, some (m,) of them without their bond."""
+        bare = list(self.interfaces)
+        for k in np.flatnonzero(which):
+            joint: Any = bare[k].joint
+            bare[k] = replace(bare[k], joint=replace(joint, **dict.fromkeys(bond(joint), 0.0)))
+        return replace(self, interfaces=tuple(bare))
 
 
-def contact(own: Interface, blocks: Sequence[Block], place: dict[str, int]) -> Contact:
-    """Return an interface as both of its blocks see it where it is closed."""
-    taut = own.joint.length if isinstance(own.joint, Tie) else None
-    half = None if taut is None else taut / 2.0 * own.axes[2]
-    spread = 0.0 if isinstance(own.joint, Dowel) else 1.0
-    corners = own.centroid + spread * own.polygon @ own.axes[:2]
-    on_i = corners if half is None else (own.centroid - half)[None]
-    on_j = corners if half is None else (own.centroid + half)[None]
-    ends, rims = (place[own.block_i], place[own.block_j]), np.zeros((len(on_i), 1, 2))
-    found = Contact(own, ends, on_i, on_j, own.axes, own.axes, rims, rims)
-    return seated(found, blocks) if taut is None else replace(found, taut=taut)
+ARRAYS = [field.name for field in fields(DisplacedContacts)][1:]
+OF_CORNERS = ("on_i", "on_j", "rims_i", "rims_j")
 
 
-def seated(own: Contact, blocks: Sequence[Block], size: float = 0.0) -> Contact:
-    """Return a contact with the rims of its faces at its corners as they are now; NaN where these are open.
+def bond(joint: object) -> tuple[str, ...]:
+    """Return the names of the strengths that a joint has by a bond."""
+    return tuple(name for name in BOND if getattr(joint, name, 0.0))
+
+
+def together(parts: Sequence[DisplacedContacts]) -> DisplacedContacts:
+    """Return the contacts of all parts."""
+    arrays = {key: [getattr(own, key) for own in parts] for key in ARRAYS}
+    joined: dict[str, Any] = {
+        key: _stacked(of) if key.startswith("rims") else np.concatenate(of) for key, of in arrays.items()
+    }
+    return DisplacedContacts(tuple(one for own in parts for one in own.interfaces), **joined)
+
+
+def _stacked(rims: Sequence[Array]) -> Array:
+    """Rims of corners (k, s, 2) in one array, those of corners with fewer sides filled with zeros."""
+    most = max(one.shape[1] for one in rims)
+    return np.concatenate([np.pad(one, ((0, 0), (0, most - one.shape[1]), (0, 0))) for one in rims])
+
+
+def contacts_of(interfaces: Sequence[Interface], blocks: Sequence[Block]) -> DisplacedContacts:
+    """Return interfaces as both of their blocks see them where they are closed."""
+    taut = np.array([own.joint.length if isinstance(own.joint, Tie) else 0.0 for own in interfaces])
+    corners = []
+    for own, length in zip(interfaces, taut, strict=True):
+        spread = 0.0 if isinstance(own.joint, Dowel) else 1.0
+        flat = np.zeros((1, 2)) if isinstance(own.joint, Tie) else spread * own.polygon
+        points, half = own.centroid + flat @ own.axes[:2], length / 2.0 * own.axes[2]
+        corners.append([points - half, points + half])
+    on_i, on_j = np.concatenate(corners, axis=1)
+    axes, rims = np.stack([own.axes for own in interfaces]), np.zeros((len(on_i), 1, 2))
+    ends, pressed = ends_of(blocks, interfaces), np.zeros(len(interfaces), dtype=bool)
+    found = DisplacedContacts(tuple(interfaces), ends, on_i, on_j, axes, axes, rims, rims, pressed, taut)
+    return seated(found, blocks)
+
+
+def seated(own: DisplacedContacts, blocks: Sequence[Block], size: float = 0.0) -> DisplacedContacts:
+    """Return contacts with the rims of their faces at their corners as they are; NaN where these are open.
 
     `size` is that of the structure, m.
     """
-    i, j = (blocks[k] for k in own.ends)
-    least = RIM * float(np.abs(own.interface.polygon).max())
-    rims_i = rims_at(i, own.axes_i[2], own.on_i, own.axes_i, least)
-    rims_j = rims_at(j, -own.axes_j[2], own.on_j, own.axes_j, least)
+    least = [RIM * float(np.abs(one.polygon).max()) for one in own.interfaces]
     opened = (own.ways[:, 2] > 10.0 * CLOSED * size)[:, None, None]
-    return replace(own, rims_i=np.where(opened, np.nan, rims_i), rims_j=np.where(opened, np.nan, rims_j))
 
+    def rims(side: int, out: float, on: Array, turned: Array) -> Array:
+        each = zip(own.ends[:, side], np.split(on, own.first[1:]), turned, least, own.tied, strict=True)
+        found = [
+            np.zeros((1, 1, 2)) if tied else rims_at(blocks[k], out * axes[2], points, axes, near)
+            for k, points, axes, near, tied in each
+        ]
+        return np.where(opened, np.nan, _stacked(found))
 
-def placed(own: Contact, blocks: Sequence[Block]) -> Interface:
-    """Return the interface on the face that its closed corners rest on; a tie between its anchors.
-
-    A strip is normal to its joint, half way between both blocks: its line as the joint turns about an edge.
-    """
-    axes = own.half_way
-    joint = own.interface.joint
-    if isinstance(joint, Tie):
-        n = own.line
-        s1 = axes[0] - (axes[0] @ n) * n
-        s1 = s1 / np.linalg.norm(s1)
-        axes = np.stack([s1, np.cross(n, s1), n])
-        centroid = (own.on_i[0] + own.on_j[0]) / 2.0
-    else:
-        gap, size = own.ways[:, 2], float(np.abs(own.interface.polygon).max())
-        kept = gap <= gap.min() + 1e-6 * size
-        middle = (own.on_i + own.on_j)[kept].mean(axis=0) / 2.0
-        if not kept.all():
-            resting = [blocks[k] for k in own.ends]
-            axes = resting_axes(resting, own.axes_i, own.axes_j, own.rest[kept].mean(axis=0), size)
-        elif own.rigid:  # half way of what slides and turns pieces would overlap; a dowel is a point
-            middle, axes = own.on_i.mean(axis=0), own.axes_i
-        centroid = middle - own.interface.polygon[kept].mean(axis=0) @ axes[:2]
-        across = float((own.on_j - own.on_i)[kept].mean(axis=0) @ own.half_way[2])
-        if abs(across) > 1e-6 * size:  # closed joints stay where they are to the last digit
-            centroid += _short_of(own, across)
-    return replace(own.interface, centroid=read_only(centroid), axes=read_only(axes))
-
-
-def _short_of(own: Contact, gap: float) -> Array:
-    """Return the way (3,), m, from half way across a gap to as far from the hinge as its corner is on a face.
-
-    Corners at r from it part by 2 r sin(turn / 2), and half way is at r cos(turn / 2): pieces would overlap.
-    """
-    hinge = np.cross(own.axes_i[2], own.axes_j[2])
-    sine = max(float(np.linalg.norm(hinge)), 1e-300)
-    turn = np.arctan2(sine, own.axes_i[2] @ own.axes_j[2])
-    return np.asarray(gap / 2.0 * np.tan(turn / 4.0) / sine * np.cross(own.half_way[2], hinge))
+    return replace(own, rims_i=rims(0, 1.0, own.on_i, own.axes_i), rims_j=rims(1, -1.0, own.on_j, own.axes_j))

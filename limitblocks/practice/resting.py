@@ -19,9 +19,9 @@ AT_RIM = 1e-3  # of the size of a joint: closed corners as near to the rim of a 
 
 
 def half_way(axes_i: Array, axes_j: Array) -> Array:
-    """Return the axes half way between two sets of axes (3, 3), rows."""
-    turn = Rotation.from_matrix(axes_j.T @ axes_i).as_rotvec()
-    return np.asarray(axes_i @ Rotation.from_rotvec(turn / 2.0).as_matrix().T)
+    """Return the axes half way between two sets of axes (..., 3, 3), rows."""
+    turn = Rotation.from_matrix(axes_j.swapaxes(-1, -2) @ axes_i).as_rotvec()
+    return np.asarray(axes_i @ Rotation.from_rotvec(turn / 2.0).as_matrix().swapaxes(-1, -2))
 
 
 def tilted(axes: Array, normal: Array) -> Array:

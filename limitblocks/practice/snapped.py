@@ -12,7 +12,7 @@ from limitblocks.joints import Dowel, Guide
 from limitblocks.mechanics.loads.load import resultant
 from limitblocks.practice.advance import Advanced, advanced, carried, moved_until_contact
 from limitblocks.practice.capacity_result import Control
-from limitblocks.practice.contact import CLOSED, Contact
+from limitblocks.practice.contact import bond
 from limitblocks.practice.displaced import Assembly
 from limitblocks.practice.rejoined import rows_of
 
@@ -58,12 +58,9 @@ def falls(assembly: Assembly) -> bool:
     corner penetrates, no contact slides that was pressed and no tie gets longer. It knows no bonds: what a
     tie, a dowel or a glued joint may hold is never said to fall.
     """
-    return not any(_holds(own) for own in assembly.contacts) and steepest(assembly)[1] > FALLS
-
-
-def _holds(own: Contact) -> bool:
-    """Whether a contact carries more than compression, its friction and the tension of a tie."""
-    return bool(own.bond) or isinstance(own.interface.joint, Dowel | Guide)
+    # more than compression, its friction and the tension of a tie
+    holds = (bond(own.joint) or isinstance(own.joint, Dowel | Guide) for own in assembly.contacts.interfaces)
+    return not any(holds) and steepest(assembly)[1] > FALLS
 
 
 def snapped(assembly: Assembly) -> tuple[Assembly, tuple[str, ...]]:
@@ -105,11 +102,9 @@ def steepest(assembly: Assembly) -> tuple[Array, float]:
     dead[free], live[free] = (load.on(model.free_blocks) for load in (model.dead, model.live))
     dead, live = scale.T @ dead.ravel(), scale.T @ live.ravel()
     rows = (rows_of(assembly) @ scale).tocsr()
-    gap = np.concatenate([own.ways[:, 2] for own in assembly.contacts])
-    corners = [len(own.on_i) for own in assembly.contacts]
-    rigid = np.repeat([own.rigid for own in assembly.contacts], corners)
-    pressed = np.repeat([own.pressed for own in assembly.contacts], corners)
-    stuck = rigid & pressed & (gap <= 10.0 * CLOSED * assembly.size)
+    own = assembly.contacts
+    gap, rigid = own.ways[:, 2], own.rigid[own.of]
+    stuck = rigid & own.pressed[own.of] & assembly.closed
     along = np.flatnonzero(np.outer(stuck, [True, True, False]))
     reach = np.repeat(free, 6) * 1.0
     rests = sparse.csr_array(live.reshape(1, -1) / np.abs(live).max())

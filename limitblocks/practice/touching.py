@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Set
+from collections.abc import Sequence, Set
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +17,7 @@ from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import clean
 from limitblocks.joints.queries import normal_share
 from limitblocks.model import Model
-from limitblocks.practice.contact import CLOSED, Contact
+from limitblocks.practice.contact import CLOSED, DisplacedContacts
 from limitblocks.practice.displaced import Assembly
 from limitblocks.practice.kept import solved
 from limitblocks.practice.rejoined import joined
@@ -35,9 +35,8 @@ def touching(assembly: Assembly, narrow: Set[int] = frozenset()) -> tuple[Model,
     Those that have opened all over carry nothing, nor do ties that are slack. Of those numbered `narrow` the
     closed corners are left.
     """
-    least = 10.0 * CLOSED * assembly.size
-    kept = [k for k, own in enumerate(assembly.contacts) if own.ways[:, 2].min() <= least]
-    found = joined(assembly, [assembly.contacts[k] for k in kept])
+    kept = np.flatnonzero(assembly.contacts.any(assembly.closed)).tolist()
+    found = joined(assembly, assembly.contacts[kept])
     if not narrow:
         return found, kept
     left = (
@@ -47,7 +46,7 @@ def touching(assembly: Assembly, narrow: Set[int] = frozenset()) -> tuple[Model,
     return replace(found, interfaces=tuple(left)), kept
 
 
-def narrowed(own: Contact, size: float) -> Interface:
+def narrowed(own: DisplacedContacts, size: float) -> Interface:
     """Return the strip of an opened joint along its closed corners."""
     polygon, closed = own.interface.polygon, own.ways[:, 2] <= 10.0 * CLOSED * size
     shut = shapely.MultiPoint(polygon[closed]).convex_hull
@@ -73,23 +72,21 @@ def pressed_in(assembly: Assembly, kept: list[int], stress_resultants: Array) ->
     """Return the structure with the contacts that carry a force marked, from stress resultants (m, 6)."""
     normal = np.zeros(len(assembly.contacts))
     normal[kept] = -stress_resultants[:, 2]
-    pressed = (normal > PRESSED * normal.max()).tolist()
-    contacts = (replace(own, pressed=one) for own, one in zip(assembly.contacts, pressed, strict=True))
-    return replace(assembly, contacts=tuple(contacts))
+    contacts = replace(assembly.contacts, pressed=normal > PRESSED * normal.max())
+    return replace(assembly, contacts=contacts)
 
 
-def across(assembly: Assembly, stress_resultants: Array, kept: list[int]) -> dict[int, str]:
+def across(assembly: Assembly, stress_resultants: Array, kept: Sequence[int] | Indices) -> dict[int, str]:
     """Return sentences on the opened joints whose normal force acts off their closed corners, by number.
 
     `stress_resultants`, shape (m, 6), are those of the contacts `kept`, on their whole faces.
     """
     said, least = {}, 1e-6 * np.abs(stress_resultants[:, 2]).max(initial=0.0)
-    for k, Q in zip(kept, stress_resultants, strict=True):
-        own = assembly.contacts[k]
+    opened = assembly.contacts.any(~assembly.closed)[kept]
+    for row in np.flatnonzero(opened & (-stress_resultants[:, 2] > least)).tolist():
+        k, Q = int(kept[row]), stress_resultants[row]
+        own, closed = assembly.contacts[k], assembly.closed[assembly.contacts.of == k]
         gap, size = own.ways[:, 2], float(np.abs(own.interface.polygon).max())
-        closed = gap <= 10.0 * CLOSED * assembly.size
-        if closed.all() or not -Q[2] > least:
-            continue
         centre = np.array([-Q[4] / Q[2], Q[3] / Q[2]])
         pressed = shapely.Point(centre)
         shut = shapely.MultiPoint(own.interface.polygon[closed]).convex_hull

@@ -132,11 +132,10 @@ def test_what_a_pressed_piece_opens_with_is_in_its_plane_and_no_tie():
     """Two pieces open at .2 and .1 m/s, a face across them at .05 and a tie, normal to them, not at all."""
     turned = np.eye(3)[[2, 0, 1]]
     kinds = ((0.2, np.eye(3), False), (0.1, np.eye(3), False), (0.05, turned, False), (0.0, np.eye(3), True))
-    motions = []
-    for speed, axes, tied in kinds:
-        one = SimpleNamespace(ends=(0, 1), pressed=True, tied=tied, axes_i=axes)
-        motions.append((one, np.array([[0.0, 0.0, speed]]), np.array([True])))
-    assert _last(motions) == [0.1, 0.1, 0.05, 0.0]
+    speeds, axes, tied = (np.array(of) for of in zip(*kinds, strict=True))
+    ends, pressed = np.array([[0, 1]] * 4), np.ones(4, dtype=bool)
+    own = SimpleNamespace(ends=ends, pressed=pressed, tied=tied, axes_i=axes)
+    assert _last(own, speeds).tolist() == [0.1, 0.1, 0.05, 0.0]
 
 
 def test_pieces_that_slide_and_turn_stay_on_the_face_of_the_first_block():
