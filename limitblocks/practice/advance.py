@@ -19,7 +19,7 @@ from limitblocks.mechanics.loads.load import Load, vector
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.contact import CLOSED, DisplacedContacts, Truths, bond
-from limitblocks.practice.displaced import Assembly, moved
+from limitblocks.practice.displaced import Assembly
 from limitblocks.practice.rejoined import closed_up, joined, meet, parallel, slid
 from limitblocks.shown import coordinates
 
@@ -131,7 +131,7 @@ def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assem
     before, least = own.ways[:, 2], 10.0 * CLOSED * assembly.size
     rigid, share, trials = (own.rigid & ~yielding)[own.of], 1.0, 0
     while share >= SHORTEST:
-        goal, left = closed_up(moved(assembly, share * displacements), held, sliding, displacements)
+        goal, left = closed_up(assembly, held, sliding, share * displacements)
         gap = goal.contacts.ways[:, 2]
         meets = rigid & (gap < -least)
         closes = rigid & (before > least) & (gap < np.minimum(TOUCH * assembly.size, 0.1 * before))
@@ -165,7 +165,7 @@ def _motion(assembly: Assembly, rates: Array) -> tuple[Truths, Truths, Truths]:
     """Which corners (k,) are closed and stay so, which contacts (m,) slide, and which are ties that yield."""
     own, least = assembly.contacts, STILL * largest_rate(assembly.model, rates)
     speeds = [
-        rates[k, :3] + np.cross(rates[k, 3:], points - assembly.centres[k])
+        rates[k, :3] + np.cross(rates[k, 3:], points - assembly.at_rest.at[k])
         for k, points in zip(own.ends[own.of].T, (own.on_i, own.on_j), strict=True)
     ]
     axes = np.stack([one.axes for one in own.interfaces])
@@ -206,8 +206,8 @@ def _at_odds(assembly: Assembly, rates: Array, held: Truths, sliding: Truths) ->
     if not taut.any() or all(getattr(joint, "compressive_strength", None) is None for joint in joints):
         return np.zeros_like(taut)
     way, (start, _) = PROBE * assembly.size, closed_up(assembly, held, sliding)
-    probe = moved(start, way / largest_rate(assembly.model, rates) * rates)
-    now = closed_up(probe, held, sliding, rates)[0].contacts
+    probe = way / largest_rate(assembly.model, rates) * rates
+    now = closed_up(start, held, sliding, probe)[0].contacts
     return taut & (now.least < np.minimum(start.contacts.least, 0.0) - AT_ODDS * way)
 
 

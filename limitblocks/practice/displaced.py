@@ -32,9 +32,10 @@ class Assembly:
         return size_of(self.model)
 
     @cached_property
-    def centres(self) -> Array:
-        """Centroids of the blocks, m, shape (n, 3)."""
-        return np.stack([block.centroid for block in self.model.blocks])
+    def at_rest(self) -> Motion:
+        """The motion of blocks that stay where they are."""
+        centres = np.stack([block.centroid for block in self.model.blocks])
+        return Motion(centres, centres, np.tile(np.eye(3), (len(centres), 1, 1)))
 
     @cached_property
     def closed(self) -> Truths:
@@ -58,27 +59,52 @@ def assembly_of(model: Model) -> Assembly:
     return Assembly(model, contacts_of(model.interfaces, model.blocks))
 
 
-def moved(assembly: Assembly, displacements: Array) -> Assembly:
-    """Return the structure after screws (n, 6) about the centroids: exact where their axes stay.
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """Rigid motions of n blocks: what is at r goes to at + (r - centres) turns.
+
+    Attributes
+    ----------
+    centres, at : Array, shape (n, 3)
+        Centroids before and after, m.
+    turns : Array, shape (n, 3, 3)
+        Transposed matrices of rotation.
+    """
+
+    centres: Array
+    at: Array
+    turns: Array
+
+    def then(self, displacements: Array) -> Motion:
+        """Return the motions followed by screws (n, 6) about the centroids: exact where their axes stay."""
+        turns = Rotation.from_rotvec(displacements[:, 3:]).as_matrix().swapaxes(1, 2)
+        return replace(self, at=self.at + _screw_shift(displacements), turns=self.turns @ turns)
+
+    def of(self, k: int | Indices, points: Array) -> Array:
+        """Return where points of blocks k go, m."""
+        return np.asarray(self.at[k] + ((points - self.centres[k])[..., None, :] @ self.turns[k])[..., 0, :])
+
+    def contacts(self, own: DisplacedContacts) -> DisplacedContacts:
+        """Return contacts as their blocks see them then, their interfaces where they were."""
+        i, j = own.ends.T
+        on_i, on_j = self.of(i[own.of], own.on_i), self.of(j[own.of], own.on_j)
+        axes_i, axes_j = own.axes_i @ self.turns[i], own.axes_j @ self.turns[j]
+        return replace(own, on_i=on_i, on_j=on_j, axes_i=axes_i, axes_j=axes_j)
+
+
+def moved(assembly: Assembly, motion: Motion) -> Assembly:
+    """Return the structure after a motion.
 
     Loads keep their directions; added masses and point forces move with their blocks. The prestress of a tie
     stays on its line.
     """
-    model, own, centres = assembly.model, assembly.contacts, assembly.centres
-    turns = Rotation.from_rotvec(displacements[:, 3:]).as_matrix().swapaxes(1, 2)
-    now = centres + _screw_shift(displacements)
-
-    def at(k: int | Indices, points: Array) -> Array:
-        return np.asarray(now[k] + ((points - centres[k])[..., None, :] @ turns[k])[..., 0, :])
-
+    model, own = assembly.model, assembly.contacts
+    stays = (motion.at == motion.centres).all(axis=1) & (motion.turns == np.eye(3)).all(axis=(1, 2))
     blocks = tuple(
-        Block(one.name, at(k, one.vertices), one.faces, one.unit_weight) if displacements[k].any() else one
+        one if stays[k] else Block(one.name, motion.of(k, one.vertices), one.faces, one.unit_weight)
         for k, one in enumerate(model.blocks)
     )
-    i, j = own.ends.T
-    on_i, on_j = at(i[own.of], own.on_i), at(j[own.of], own.on_j)
-    turned = replace(own, on_i=on_i, on_j=on_j, axes_i=own.axes_i @ turns[i], axes_j=own.axes_j @ turns[j])
-    contacts = placed(turned, blocks)
+    contacts = placed(motion.contacts(own), blocks)
     pulls = [
         pair
         for k in np.flatnonzero(own.tied)
@@ -86,7 +112,7 @@ def moved(assembly: Assembly, displacements: Array) -> Assembly:
     ]
     place = {block.name: k for k, block in enumerate(model.blocks)}
     dead, live = (
-        carried_load(load, lambda name, point: at(place[name], point), pulls)
+        carried_load(load, lambda name, point: motion.of(place[name], point), pulls)
         for load in (model.dead, model.live)
     )
     there = replace(model, blocks=blocks, interfaces=contacts.interfaces, dead=dead, live=live)

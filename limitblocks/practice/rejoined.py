@@ -16,7 +16,7 @@ from limitblocks.geometry.overlap import find_overlaps
 from limitblocks.joints import Dowel
 from limitblocks.model import Model
 from limitblocks.practice.contact import CLOSED, DisplacedContacts, Truths, contacts_of, seated, together
-from limitblocks.practice.displaced import Assembly, moved, placed
+from limitblocks.practice.displaced import Assembly, Motion, moved, placed
 from limitblocks.practice.resting import PARALLEL
 from limitblocks.practice.trimmed import trimmed
 
@@ -26,45 +26,51 @@ ROUNDS = 20  # of Newton's method for the gaps; it converges quadratically
 
 
 def closed_up(
-    assembly: Assembly, held: Truths, sliding: Truths, along: Array | None = None
+    assembly: Assembly, held: Truths, sliding: Truths, displacements: Array | None = None
 ) -> tuple[Assembly, float]:
     """Return the nearest structure in which the corners `held` have no gap, and the largest that is left, m.
 
     `held` has shape (k,), `sliding` (m,). Where a contact does not slide its held corners coincide; a tie
-    keeps its length alone. The way back along the displacements `along`, shape (n, 6), is barred unless a
-    support led the motion; what then cannot but open opens: rates tell of the first order of a motion alone.
+    keeps its length alone. It is the nearest to that after `displacements`, shape (n, 6), whose way back is
+    barred unless a support led the motion; what then cannot but open opens: rates tell of the first order of
+    a motion alone.
     """
-    normal, own = held, assembly.contacts
+    normal, own, motion = held, assembly.contacts, assembly.at_rest
     stuck = ~(sliding | own.tied)[own.of]
     size = np.array([block.size for block in assembly.model.blocks])
     scale = np.repeat(np.stack([np.ones_like(size), 1.0 / size], axis=1), 3, axis=1)
-    supports = ~assembly.model.free
-    along = None if along is None or along[supports].any() else along
-    barred = np.zeros((0, scale.size)) if along is None else (along / scale).reshape(1, -1)
-    barred = barred / np.maximum(np.linalg.norm(barred, axis=1, keepdims=True), 1e-300)
+    supports, barred = ~assembly.model.free, np.zeros((0, scale.size))
+    if displacements is not None:
+        motion = motion.then(displacements)
+        if not displacements[supports].any():
+            way = (displacements / scale).reshape(1, -1)
+            barred = way / np.maximum(np.linalg.norm(way), 1e-300)
     scale[supports] = 0.0
     while True:
         wanted = np.stack([normal & stuck, normal & stuck, normal], axis=1)
-        goal, way, left = _closed(assembly, wanted, scale, barred)
-        opens = normal & (way[:, 2] > CLOSED * assembly.size)
-        if along is None or not opens.any():
-            return goal, left
+        there, ways = _closed(own, motion, wanted, scale, barred)
+        opens = normal & (ways[:, 2] > CLOSED * assembly.size)
+        if not len(barred) or not opens.any():
+            return moved(assembly, there), float(np.abs(ways).max(initial=0.0))
         normal = normal & ~opens
 
 
-def _closed(assembly: Assembly, wanted: Truths, scale: Array, barred: Array) -> tuple[Assembly, Array, float]:
-    """Newton's method for the ways `wanted`, shape (k, 3): the structure, its ways and the largest, m."""
-    left = np.inf
+def _closed(
+    contacts: DisplacedContacts, motion: Motion, wanted: Truths, scale: Array, barred: Array
+) -> tuple[Motion, Array]:
+    """Newton's method for the ways `wanted`, shape (k, 3): where blocks then are, and those ways, m."""
+    last = np.inf
     for _ in range(ROUNDS):
-        way = np.where(wanted, assembly.contacts.ways, 0.0)
-        last, left = left, float(np.abs(way).max(initial=0.0))
+        own = motion.contacts(contacts)
+        ways = np.where(wanted, own.ways, 0.0)
+        left = float(np.abs(ways).max(initial=0.0))
         if left == 0.0 or left > last / 2.0:  # rounding is reached
             break
-        rows = rows_of(assembly)[wanted.ravel()] @ sparse.diags_array(scale.ravel())
+        rows = rows_of(own, motion.at)[wanted.ravel()] @ sparse.diags_array(scale.ravel())
         rows = sparse.vstack([rows, sparse.csr_array(barred)])
-        step = _least_squares(rows, np.append(-way[wanted], np.zeros(len(barred))))
-        assembly = moved(assembly, (scale.ravel() * step).reshape(-1, 6))
-    return assembly, way, left
+        step = _least_squares(rows, np.append(-ways[wanted], np.zeros(len(barred))))
+        motion, last = motion.then((scale.ravel() * step).reshape(-1, 6)), left
+    return motion, ways
 
 
 def _least_squares(A: sparse.csr_array, b: Array) -> Array:
@@ -77,18 +83,17 @@ def _least_squares(A: sparse.csr_array, b: Array) -> Array:
     return np.asarray(found[len(b) :])
 
 
-def rows_of(assembly: Assembly) -> sparse.csr_array:
-    """Return the rates of the ways of all contacts in the rates of the blocks, shape (3 k, 6 n)."""
-    own, blocks = assembly.contacts, assembly.model.blocks
+def rows_of(own: DisplacedContacts, centres: Array) -> sparse.csr_array:
+    """Return the rates of the ways of contacts in those of blocks about centres (n, 3), shape (3 k, 6 n)."""
     ends = own.ends[own.of]  # of k corners, as all axes below
-    arms = own.rest[:, None] - assembly.centres[ends]
+    arms = own.rest[:, None] - centres[ends]
     axes = np.stack([-own.axes, own.axes], axis=1)
     turns = np.cross(arms[:, :, None], axes)  # a . (w x r) = w . (r x a)
     data = np.concatenate([axes, turns], axis=3)
     rows = np.arange(own.axes.shape[0] * 3).reshape(-1, 1, 3, 1)
     columns = 6 * ends[:, :, None, None] + np.arange(6)
     places = tuple(np.broadcast_to(place, data.shape).ravel() for place in (rows, columns))
-    return sparse.coo_array((data.ravel(), places), shape=(rows.size, 6 * len(blocks))).tocsr()
+    return sparse.coo_array((data.ravel(), places), shape=(rows.size, 6 * len(centres))).tocsr()
 
 
 def meet(assembly: Assembly) -> bool:

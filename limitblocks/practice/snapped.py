@@ -101,7 +101,7 @@ def steepest(assembly: Assembly) -> tuple[Array, float]:
     dead, live = np.zeros((len(size), 6)), np.zeros((len(size), 6))
     dead[free], live[free] = (load.on(model.free_blocks) for load in (model.dead, model.live))
     dead, live = scale.T @ dead.ravel(), scale.T @ live.ravel()
-    rows = (rows_of(assembly) @ scale).tocsr()
+    rows = (rows_of(assembly.contacts, assembly.at_rest.at) @ scale).tocsr()
     own = assembly.contacts
     gap, rigid = own.ways[:, 2], own.rigid[own.of]
     stuck = rigid & own.pressed[own.of] & assembly.closed

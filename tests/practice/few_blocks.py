@@ -3,6 +3,7 @@
 from stones import model_of
 
 import limitblocks as lb
+from limitblocks.practice import displaced
 
 H = 1.0
 
@@ -20,3 +21,8 @@ def sliding_block(friction=0.1, size=1.0):
         lb.Block.box("block", (size, size, 0.3), (0, 0, 0.15), 20e3),
     ]
     return model_of(stones, ["base"], lb.PointContact(friction))
+
+
+def moved(assembly, displacements):
+    """The structure after screws (n, 6) of its blocks."""
+    return displaced.moved(assembly, assembly.at_rest.then(displacements))

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from few_blocks import sliding_block, toe_corner
+from few_blocks import moved, sliding_block, toe_corner
 from stones import model_of
 
 import limitblocks as lb
@@ -12,7 +12,7 @@ from limitblocks.arrays import read_only
 from limitblocks.errors import NoEquilibrium
 from limitblocks.practice import CapacityCurve, CapacityPoint, Control, capacity, capacity_curve, touching
 from limitblocks.practice.advance import advanced, moved_until_contact
-from limitblocks.practice.displaced import assembly_of, moved
+from limitblocks.practice.displaced import assembly_of
 from limitblocks.practice.rejoined import closed_up
 from limitblocks.practice.rejoined import slid as slid_on
 from limitblocks.practice.touching import across, narrowed

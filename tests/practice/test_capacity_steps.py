@@ -5,7 +5,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from few_blocks import moved
 from images import image
+from scipy import sparse
 from scipy.spatial.transform import Rotation
 from stones import model_of
 
@@ -15,7 +17,8 @@ from limitblocks.practice import CapacityPoint, Control, capacity, capacity_curv
 from limitblocks.practice.advance import moved_until_contact
 from limitblocks.practice.capacity_result import to_zero
 from limitblocks.practice.contact import CLOSED
-from limitblocks.practice.displaced import assembly_of, moved
+from limitblocks.practice.displaced import assembly_of
+from limitblocks.practice.rejoined import DAMP, _least_squares
 from limitblocks.practice.snapped import TIGHT, NoRest, falls, snapped, steepest
 from limitblocks.practice.touching import pressed_in
 
@@ -212,3 +215,12 @@ def test_a_step_that_jumps_back_is_halved(monkeypatch, longest):
         assert curve.zero is None
         assert len(curve.points) == 3
         assert "its contacts come together only where the mechanism came from" in curve.ended
+
+
+def test_closing_motions_are_exact_where_rows_are_nearly_dependent():
+    """Of the least squares of [A; DAMP I] x = [b; 0], by the singular values s of A: s / (s^2 + DAMP^2)."""
+    draw = np.random.default_rng(1)
+    u, v = (np.linalg.qr(draw.normal(size=size))[0] for size in ((60, 20), (20, 20)))
+    s, c = np.geomspace(1e-6, 5.0, 20), draw.normal(size=20)
+    x = _least_squares(sparse.csr_array(u * s @ v.T), u @ c)
+    assert x == pytest.approx(v @ (s / (s**2 + DAMP**2) * c), abs=1e-10 * np.abs(x).max())

@@ -4,11 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from few_blocks import moved
 from scipy.optimize import brentq
 
 import limitblocks as lb
 from limitblocks.practice import capacity_curve, reinforced, strip, tie
-from limitblocks.practice.displaced import assembly_of, moved
+from limitblocks.practice.displaced import assembly_of
 from limitblocks.practice.rejoined import rows_of
 
 UNIT_WEIGHT = 20e3
@@ -133,5 +134,5 @@ def test_rates_of_what_a_tie_is_slack_are_those_of_its_anchors(length):
     assembly = assembly_of(reinforced(wall, element))
     way = np.random.default_rng(0).normal(size=(2, 6))
     gap = [moved(assembly, t * way).contacts[-1].ways[0, 2] for t in (1e-6, -1e-6)]
-    rate = (rows_of(assembly) @ way.ravel())[-1]
+    rate = (rows_of(assembly.contacts, assembly.at_rest.at) @ way.ravel())[-1]
     assert rate == pytest.approx((gap[0] - gap[1]) / 2e-6, rel=1e-6)

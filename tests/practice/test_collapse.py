@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from few_blocks import moved
 from scipy.optimize import brentq
 from settling_blocks import SPREAD, arch, beam_on
 from spreading_arch import beside_the_crown, first_hinge, fourth_hinge, half_ring, three_hinged
@@ -14,7 +15,7 @@ from limitblocks.arrays import read_only
 from limitblocks.loads import force
 from limitblocks.practice import Control, reinforced, settlement_to_collapse, tie
 from limitblocks.practice.advance import Advanced, shut
-from limitblocks.practice.displaced import assembly_of, moved
+from limitblocks.practice.displaced import assembly_of
 
 
 @pytest.mark.parametrize(

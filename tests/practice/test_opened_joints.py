@@ -5,13 +5,14 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from few_blocks import moved
 from stones import model_of, shaft
 
 import limitblocks as lb
 from limitblocks.geometry.accuracy import GAP
 from limitblocks.practice import capacity_curve, dowel, reinforced
 from limitblocks.practice.advance import _last
-from limitblocks.practice.displaced import _screw_shift, assembly_of, moved
+from limitblocks.practice.displaced import _screw_shift, assembly_of
 from limitblocks.practice.resting import face_at
 from limitblocks.practice.touching import across, pressed_in
 from limitblocks.practice.trimmed import trimmed
