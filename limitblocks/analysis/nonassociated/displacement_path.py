@@ -68,15 +68,15 @@ class DisplacementPath:
         p, k = flow.problem, len(points.friction)
         self.cell = np.minimum(self.layout.cell_stresses[:, 0] // 3, k)  # the last one is empty
         self.factorisations = 0
-        factors, sign = self._factors(points.forces(np.zeros((k, 3)))[1])
-        elastic = self._tangent(factors)
+        factors = self._factors(points.forces(np.zeros((k, 3)))[1])
+        elastic, _ = self._directions(factors, np.zeros_like(p.dead), 0.0)
         work = elastic.load_factor  # per tau**2
         if not work > 0.0:
             raise ValueError("the live load does no work on the elastic structure")
         self.unit = scale, scale / work
         self.energy = scale**2 / work
         self.at = Move(np.zeros_like(p.dead), 0.0, 0.0)
-        self.start = Met(self.at, elastic, sign, 0)
+        self.start = Met(self.at, elastic, sign_of(factors.factors), 0)
 
     def state(self, at: Move) -> State:
         """Return a point as a state of rates; that of the permanent loads has none."""
@@ -87,17 +87,19 @@ class DisplacementPath:
         forces, slope = self.points.forces((self.flow.problem.C @ at.u).reshape(-1, 3))
         return forces.ravel(), slope
 
-    def _factors(self, slope: Array) -> tuple[Factors, float]:
-        """Factors of [[-K, live], [live^T, 0]], K = C^T dx/de C, and the sign of its determinant."""
+    def _factors(self, slope: Array) -> Factors:
+        """Factors of [[-K, live], [live^T, 0]], K = C^T dx/de C."""
         C = self.layout.compatibility
         cells = np.concatenate([slope, np.zeros_like(slope[:1])])[self.cell]
-        factors = self.layout.factors(np.swapaxes(C, 1, 2) @ (self.layout.by_interface(cells) @ C))
         self.factorisations += 1
-        return factors, sign_of(factors.factors)
+        return self.layout.factors(np.swapaxes(C, 1, 2) @ (self.layout.by_interface(cells) @ C))
 
-    def _tangent(self, factors: Factors) -> Move:
-        d = factors.solve(np.append(np.zeros_like(self.flow.problem.dead), 1.0))
-        return Move(d[:-1], float(d[-1]), 1.0)
+    def _directions(self, factors: Factors, left: Array, short: float) -> list[Move]:
+        """The tangent, and the correction of loads (6 n,) that are left and of what tau is short of."""
+        right = np.zeros((len(left) + 1, 2))
+        right[-1, 0], right[:-1, 1], right[-1, 1] = 1.0, left, short
+        found = np.ascontiguousarray(factors.solve(right).T)
+        return [Move(d[:-1], float(d[-1]), tau) for d, tau in zip(found, (1.0, 0.0), strict=True)]
 
     def points_met(self, record: Callable[[Iteration], None]) -> Iterator[Move]:
         """Follow the path from the permanent loads, and give each of its points, until no step succeeds."""
@@ -132,13 +134,11 @@ class DisplacementPath:
         for k in range(len(PACE) + 2):
             x, slope = self._forces(z)
             try:
-                factors, sign = self._factors(slope)
+                factors = self._factors(slope)
             except (RuntimeError, ValueError):  # SuperLU: singular, or not finite
                 return None
-            turn = self._tangent(factors)
             left = p.balance @ x - p.dead - z.load_factor * p.live
-            d = factors.solve(np.append(left, z.tau - p.live @ z.u))
-            step = Move(d[:-1], float(d[-1]), 0.0)
+            turn, step = self._directions(factors, left, float(z.tau - p.live @ z.u))
             off = self.product(along, z.plus(-1.0, first).plus(1.0, step))
             step = step.plus(-off / self.product(along, turn), turn)
             size = self.product(step, step) ** 0.5
@@ -146,7 +146,7 @@ class DisplacementPath:
                 return None
             z = z.plus(1.0, step)
             if size < near:
-                return Met(z, turn, sign, k)
+                return Met(z, turn, sign_of(factors.factors), k)
         return None
 
 
