@@ -44,23 +44,24 @@ class ContactPoints:
 
     def forces(self, strains: Array) -> tuple[Array, Array]:
         """Return the forces at strains (k, 3), and their derivatives (k, 3, 3)."""
-        soft, elastic = 2.0 * self.rounding, self.x0 + strains * self.stiffness
-        n, V = elastic[:, 2], elastic[:, :2]
+        soft = 2.0 * self.rounding
+        V1, V2, n = elastic = np.ascontiguousarray((self.x0 + strains * self.stiffness).T)
         root = np.hypot(n, soft)
         N = np.minimum(n, 0.0) - soft**2 / (np.abs(n) + root) / 2.0  # the same, without cancellation
         dN = -N / root
-        v, c = np.hypot(*V.T), -self.friction * N
+        v, c = np.hypot(V1, V2), -self.friction * N
         out, off = np.hypot(v + c, soft), np.hypot(v - c, soft)
         by_v = ((v + c) / out - (v - c) / off) / 2.0
         by_c = ((v + c) / out + (v - c) / off) / 2.0
         share = 2.0 * c / (out + off)  # |V| / v
-        d = V / np.maximum(v, TINY)[:, None]
+        d = elastic[:2] / np.maximum(v, TINY)
         slope = np.zeros((len(v), 3, 3))
-        slope[:, :2, :2] = (by_v - share)[:, None, None] * d[:, :, None] * d[:, None, :]
-        slope[:, [0, 1], [0, 1]] += share[:, None]
-        slope[:, :2, 2] = -(self.friction * by_c * dN)[:, None] * d
+        slope[:, :2, :2] = ((by_v - share) * d * d[:, None]).T
+        slope[:, 0, 0] += share
+        slope[:, 1, 1] += share
+        slope[:, :2, 2] = (-(self.friction * by_c * dN) * d).T
         slope[:, 2, 2] = dN
-        return np.column_stack([share[:, None] * V, N]), slope * self.stiffness[:, None, :]
+        return np.column_stack([share * V1, share * V2, N]), slope * self.stiffness[:, None, :]
 
 
 def contact_points(flow: Flow, x0: Array, rounding: float) -> ContactPoints | None:
