@@ -101,7 +101,7 @@ def moved(assembly: Assembly, motion: Motion) -> Assembly:
     model, own = assembly.model, assembly.contacts
     stays = (motion.at == motion.centres).all(axis=1) & (motion.turns == np.eye(3)).all(axis=(1, 2))
     blocks = tuple(
-        one if stays[k] else Block(one.name, motion.of(k, one.vertices), one.faces, one.unit_weight)
+        one if stays[k] else replace(one, vertices=motion.of(k, one.vertices))
         for k, one in enumerate(model.blocks)
     )
     contacts = placed(motion.contacts(own), blocks)

@@ -156,3 +156,11 @@ def test_a_dowel_is_half_way_across_its_opened_joint():
     displacements[1, 2] = 0.2
     there = moved(assembly_of(reinforced(model, pin)), displacements).model.interfaces[-1]
     assert there.centroid == pytest.approx(pin.interface.centroid + displacements[1, :3] / 2)
+
+
+def test_displaced_blocks_keep_what_a_drawing_says_of_them():
+    model = lb.structures.block(lb.PointContact(0.6), width=B, height=H)
+    words = {"layer": "pier", "material": "tuff", "groups": ("a", "b"), "colour": "#c08040"}
+    model = replace(model, blocks=[block.labelled(**words) for block in model.blocks])
+    there = moved(assembly_of(model), np.full((len(model.blocks), 6), 1e-3)).model
+    assert [block.words for block in there.blocks] == [block.words for block in model.blocks]
