@@ -81,7 +81,8 @@ class Limits:
     def changes(self, x: Array) -> Array:
         """Return the relative change of strength that takes each linear row and cone to yield, (degree,).
 
-        Negative where the row holds back more than it needs to; infinite where there is no strength to scale.
+        Negative where the row holds back more than it needs to; infinite where there is no strength to scale,
+        or no strength would be little enough.
         """
         p = self.problem
         heads = p.cones.heads
@@ -100,7 +101,7 @@ class Limits:
         lacking = np.where(np.abs(lacking) <= ROUNDING * terms, 0.0, lacking)
         change = np.where(lacking == 0.0, 0.0, np.copysign(np.inf, lacking))
         np.divide(lacking, strength, out=change, where=(strength > 0.0) & (lacking != 0.0))
-        return change
+        return np.where(change < -1.0, -np.inf, change)
 
     def rows(self, x: Array, change: Array) -> Array:
         """Return F x + g of the problem that `scaled` makes, shape (R,)."""

@@ -261,6 +261,16 @@ def test_strength_that_a_centric_force_needs_to_crush_and_to_crack():
     assert change == pytest.approx((area * ft + weight) / (area * (fc + ft)) - 1.0)
 
 
+def test_no_strength_takes_a_row_to_yield_that_its_demand_leads_away_from_it():
+    """Half of the friction in use: at t from the push cos(t) / 2 - 1 is too much, behind it all and more."""
+    model, claim = slid_at(MU / 2.0, joint=lb.OrdunaLourenco(MU, slip="paper"))
+    problem = model.problem
+    slips = [problem.row_mode[k] == "slip" for k in problem.cones.heads]
+    change = np.sort(Limits(problem).changes(state_of(model, claim).x)[slips])
+    assert (change[:3] == -np.inf).all()
+    assert change[5:] == pytest.approx(np.cos(np.pi / 4 * np.array([1, 1, 0])) / 2.0 - 1.0)
+
+
 @pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6), lb.PointContact(0.6)], ids=repr)
 def test_what_rows_and_cones_flow_by_themselves_adds_up_to_the_flow(joint):
     model = lb.structures.corner(joint, length=1.2, return_length=1.2, courses=2)
