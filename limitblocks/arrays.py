@@ -10,6 +10,7 @@ from scipy import sparse
 
 Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
+Flags = npt.NDArray[np.bool_]
 
 
 class Sealed:

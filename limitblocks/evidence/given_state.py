@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices, positions
-from limitblocks.evidence.limits import ROUNDING, Flags, Limits
+from limitblocks.arrays import Array, Flags, Indices, positions
+from limitblocks.evidence.limits import ROUNDING, Limits
 from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.sought import Sought

@@ -12,14 +12,12 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 from scipy import sparse
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, Flags
 from limitblocks.problem import LimitProblem, in_units
 
 ROUNDING = 4 * np.finfo(float).eps  # of the terms of a row: no change of strength makes up for it
-Flags = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices, positions
-from limitblocks.evidence.limits import ROUNDING, Flags
+from limitblocks.arrays import Array, Flags, Indices, positions
+from limitblocks.evidence.limits import ROUNDING
 from limitblocks.problem import Cones, LimitProblem
 
 PASSES = 4  # each with the rows that the one before took beyond yield

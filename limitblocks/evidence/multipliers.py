@@ -7,8 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices
-from limitblocks.evidence.limits import Flags
+from limitblocks.arrays import Array, Flags, Indices
 from limitblocks.evidence.mechanism import sparse_columns
 from limitblocks.problem import Cones
 

@@ -8,9 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, Flags
 from limitblocks.evidence.given_state import Given
-from limitblocks.evidence.limits import Flags
 from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.moved_forces import moved_forces
 from limitblocks.evidence.multipliers import near_yield

@@ -11,8 +11,7 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array
-from limitblocks.evidence.limits import Flags
+from limitblocks.arrays import Array, Flags
 from limitblocks.problem import Flow, LimitProblem, State
 from limitblocks.problem.plane import Choice, Planar, mirror_of, reduced
 from limitblocks.problem.plane.planar import SYMMETRIC

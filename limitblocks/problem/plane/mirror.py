@@ -10,9 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Flags, Indices
 from limitblocks.known import known
 from limitblocks.problem.limit_problem import LimitProblem
 from limitblocks.problem.plane.alike import alike
@@ -21,8 +20,6 @@ from limitblocks.problem.plane.places import Place, kinds_of
 from limitblocks.problem.plane.rounding import EXACT, classes, close
 
 SNAP = 1e-10  # distance of a normal from an axis that is rounding
-
-Flags = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)

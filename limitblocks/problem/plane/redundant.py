@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Flags, Indices
 from limitblocks.problem.plane.rounding import classes
 
 ROUNDING = 1e-10  # of rows of unit length
 ENTRIES = 2**20  # of an array of all sums of two rows: sets are judged so many at a time
-
-Flags = npt.NDArray[np.bool_]
 
 
 def redundant(rows: Array, present: Flags, flow: Array | None = None) -> Flags:

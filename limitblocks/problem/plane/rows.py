@@ -14,15 +14,13 @@ from enum import Enum
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
-from limitblocks.arrays import Array, Indices, repeated
+from limitblocks.arrays import Array, Flags, Indices, repeated
 from limitblocks.problem.plane.alike import in_order, length_of
 from limitblocks.problem.plane.mirror import Mirrored
 from limitblocks.problem.plane.redundant import redundant
 from limitblocks.problem.plane.rounding import EXACT, classes
 
-Flags = npt.NDArray[np.bool_]
 CHUNK = 1000  # classes of places at a time: keeps the arrays small
 
 
