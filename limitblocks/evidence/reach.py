@@ -75,6 +75,11 @@ class Static:
         return change[:-1]
 
     @cached_property
+    def poor(self) -> Indices:
+        """Blocks whose interface of the tree does not carry every force."""
+        return np.flatnonzero(~np.isfinite(self._ways[2]))
+
+    @cached_property
     def _balance(self) -> Products:
         return Products((self.problem.balance,))
 
@@ -198,9 +203,11 @@ def _in_cones(problem: LimitProblem, rows: Array, reach: Array) -> tuple[Array, 
     cones = problem.cones
     need, room = [reach[: cones.linear]], [rows[: cones.linear]]
     for index in cones.groups:
-        t, norm = rows[index[:, 0]], lengths(rows[index[:, 1:]])
+        t, z = rows[index[:, 0]], rows[index[:, 1:]]
+        single = np.count_nonzero(z, axis=1) < 2  # no square is rounded
+        norm = np.where(single, np.abs(z).max(axis=1, initial=0.0), lengths(z))
         moved = reach[index[:, 0]] + lengths(reach[index[:, 1:]])
-        rounding = np.where(norm > 0.0, EPS * (np.abs(t) + (index.shape[1] + 4) * norm), 0.0)
+        rounding = EPS * np.where(single, np.abs(t - norm), np.abs(t) + (index.shape[1] + 4) * norm)
         need.append((moved + rounding) * UP)
         room.append(t - norm)
     return np.concatenate(need), np.concatenate(room)

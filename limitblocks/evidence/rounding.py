@@ -50,7 +50,8 @@ class Products:
         sizes = [A @ size_of(v) for A, v in zip(self.sizes, vectors, strict=True)]
         size = reduce(add, sizes + [size_of(addend) for addend in addends])
         error = _error(self.count + 2 * len(addends) + 2, size)
-        return value, error * (size != 0.0)  # nothing is added: it is exact
+        alone = sum((1 * (addend != 0.0) for addend in addends), np.zeros(len(value), dtype=int)) < 2
+        return value, error * ~(alone & (reduce(add, sizes) == 0.0))  # nothing is added: it is exact
 
 
 def size_of(values: Array) -> Array:

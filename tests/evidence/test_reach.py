@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from fractions import Fraction
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,9 +12,10 @@ from scipy import sparse
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.arrays import equal_rows, same_rows
-from limitblocks.evidence.reach import Kinematic, Static
+from limitblocks.evidence.reach import Kinematic, Static, _in_cones
 from limitblocks.evidence.rounding import Products, products, scalar_product
 from limitblocks.evidence.spanning_tree import spanning_tree
+from limitblocks.problem import Cones
 
 RANDOM = np.random.default_rng(7)
 
@@ -198,3 +200,17 @@ def test_what_is_made_up_is_bounded(model):
         found = Kinematic(p).made_up(defect)
         needed = np.linalg.pinv(p.F.toarray().T) @ strain
         assert (np.abs(needed) <= found * (1 + 1e-9) + 1e-9 * np.abs(needed).max()).all()
+
+
+def test_cones_with_one_other_row_are_judged_without_rounding():
+    """Eq. (39) as a cone is (1, 1, 0) without stresses: on its boundary, as exactly as 1e-9 beside is off."""
+    rows = np.array([(1.0, 1.0, 0.0), (1.0, 1.0, 1e-9), (1.0, 0.0, -1.0), (0.0, 1e-200, 0.0)])
+    need, room = _in_cones(SimpleNamespace(cones=Cones(0, ((4, 3),))), rows.ravel(), np.zeros(12))
+    assert (room >= need).tolist() == [True, False, True, False]
+
+
+def test_one_number_alone_is_no_sum():
+    """Nothing is rounded where no product comes to it; two numbers are added."""
+    sums = Products((sparse.csr_array(np.eye(2)),))
+    for addends, exact in (((np.ones(2),), [False, True]), ((np.ones(2), np.ones(2)), [False, False])):
+        assert (sums.of((np.array([1.0, 0.0]),), *addends)[1] == 0.0).tolist() == exact
