@@ -18,7 +18,7 @@ from limitblocks.analysis.direct import Programs
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.interior import carried
-from limitblocks.analysis.limit_state import IN_HALF, limit_state, programs_of
+from limitblocks.analysis.limit_state import IN_HALF, in_units_of, limit_state, programs_of
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import ROUNDS, kinematic_program, solved, solvers, static_program
@@ -30,7 +30,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import SolverFailure, refuse_no_progress
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.crushing import beyond_stress_block
-from limitblocks.evidence.measure import without_rounding
+from limitblocks.evidence.measure import Measure, without_rounding
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import OF_BOUNDS, Residual, Residuals, bounds_residuals, nearest
 from limitblocks.known import known
@@ -60,6 +60,12 @@ class Pair:
     def residuals(self) -> Residuals:
         """Of both theorems, and the gap."""
         return bounds_residuals(Flow(self.problem, ASSOCIATED), self.state, self.upper)
+
+    def width(self, proof: Proof) -> float:
+        """Distance of proven bounds over the load factor; zero where they are so to rounding."""
+        rounding = np.finfo(float).eps * Measure(self.problem, self.state).everything
+        size = max(abs(proof.lower), abs(proof.upper)) * self.problem.units.live
+        return 0.0 if size <= rounding else proof.width
 
 
 @one_thread
@@ -124,53 +130,63 @@ def _bounds(model: Model, tolerance: float, tell: Tell) -> Bounds:
 
 
 def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Array, Pair, Proof] | None:
-    """Dead-load stresses and a pair of bounds by an accurate solve, if one proves them as well as any."""
-    tell("dead loads")
-    forms = programs_of(problem)
-    splitting = Splitting(forms[0].form.problem)
-    dead = carried(problem, splitting)
-    if dead is None:
-        tell("dead loads, again with care")
-        dead = dead_load_state(problem)
+    """Dead-load stresses, and the pair of bounds of an accurate solve that proves most, if close enough."""
+    accurate = min(max(CLOSE, PER_BLOCK * len(problem.blocks)), tolerance)
+    close = max(CLOSE, min(accurate, tolerance / 10.0))
+    forms = list(programs_of(problem))
+    last, splitting = forms[-1], Splitting(forms[0].form.problem)
+    dead = _dead_loads(problem, splitting, tell)
+    good: list[tuple[Pair, Proof]] = []
     for programs in forms:
         tell("load factor")
         found = limit_state(programs, in_plane(problem))
         if found is None:
             continue
         tell("proof")
-        pair, proof, good = _certified(Pair(problem, *found), programs, dead, tolerance, splitting)
-        if good:
-            return dead, pair, proof
-    return None
+        raw = Pair(problem, *found)
+        pair, proof = _certified(raw, programs, dead, close, splitting)
+        # another solution is no better where this one is that accurate, and only its proof takes more
+        enough = proof.complete and raw.residuals.worst.value <= accurate
+        if enough or max(pair.width(proof), pair.residuals.worst.value) <= tolerance:
+            good.append((pair, proof))
+            if pair.width(proof) <= (tolerance if enough else close):
+                break
+        if programs is last:
+            forms += in_units_of(last, problem, pair.state)
+    return (dead, *min(good, key=lambda one: one[0].width(one[1]))) if good else None
+
+
+def _dead_loads(problem: LimitProblem, splitting: Splitting | None, tell: Tell) -> Array:
+    """Stresses that carry the dead loads, as far within yield as any are."""
+    tell("dead loads")
+    found = carried(problem, splitting)
+    if found is None:
+        tell("dead loads, again with care")
+        found = dead_load_state(problem)
+    return found
 
 
 def _certified(
-    raw: Pair, programs: Programs, dead: Array, tolerance: float, splitting: Splitting
-) -> tuple[Pair, Proof, bool]:
-    """The pair near the raw one that proves its bounds, its proof, and whether no other is worth a solve."""
+    raw: Pair, programs: Programs, dead: Array, close: float, splitting: Splitting
+) -> tuple[Pair, Proof]:
+    """The pair near the raw one that proves its bounds, and its proof."""
     problem, plane = raw.problem, in_plane(raw.problem)
     patience = 1 if plane is not None and plane.flat else programs.form.patience
-    accurate = max(CLOSE, PER_BLOCK * len(problem.blocks))
-    close = max(CLOSE, min(accurate, tolerance / 10.0))
     state, proof = certified(problem, raw.state, dead, close=close, patience=patience, splitting=splitting)
-    pair = Pair(problem, state, raw.solver)
-    good = proof.width <= tolerance and pair.residuals.worst.value <= tolerance
-    # another solution is no better where this one is that accurate, and only its proof takes more
-    good = good or (proof.complete and raw.residuals.worst.value <= min(accurate, tolerance))
-    return pair, proof, good
+    return replace(raw, state=state), proof
 
 
 def _with_care(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Array, Pair, Proof]:
     """Dead-load stresses and a pair of bounds by one solver after the other."""
-    tell("dead loads, again with care")
-    dead = dead_load_state(problem)
+    dead = _dead_loads(problem, None, tell)
     tell("load factor, again with care")
-    for raw in islice(pairs_of_bounds(problem, dead, tolerance), PAIRS):
+    for raw in islice(pairs_of_bounds(problem, dead_load_state(problem), tolerance), PAIRS):
         pair, proof = _proven(raw, dead, tolerance)
         # small beside what acts on a block may be large beside the live load
-        if proof.complete or raw.residuals.worst.value <= tolerance * abs(raw.state.load_factor):
+        small = raw.residuals.worst.value <= tolerance * abs(raw.state.load_factor)
+        if pair.width(proof) <= tolerance or small:
             break
-    if proof.complete and proof.width > tolerance:
+    if proof.complete and pair.width(proof) > tolerance:
         wide = f"proven is only {proof.lower:.6g} to {proof.upper:.6g}, more than {tolerance:g} apart"
         proof = Proof(-np.inf, np.inf, wide, wide)
     return dead, pair, proof
@@ -180,7 +196,7 @@ def _proven(pair: Pair, dead: Array, tolerance: float) -> tuple[Pair, Proof]:
     """The pair that proves its bounds, rounding errors included; or the same, and why it proves nothing."""
     for whole in (False, True) if in_plane(pair.problem) else (True,):
         state, proof = certified(pair.problem, pair.state, dead, whole=whole)
-        if proof.width <= tolerance:
+        if pair.width(proof) <= tolerance:
             return replace(pair, state=state), proof
     return pair, proof
 

@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from limitblocks.analysis.in_plane import in_plane
+from limitblocks.analysis.interior import carrying
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import remeasured
 from limitblocks.analysis.repair import PlanarRepair, Repair
@@ -68,7 +69,8 @@ def certified(
         Whether to make no use of a mirror.
     """
     plane = None if whole else in_plane(problem)
-    repair = Repair(splitting or Splitting(scaled(problem if plane is None else plane.problem)))
+    reduced, own = (problem, dead) if plane is None else (plane.problem, plane.stresses_of(dead))
+    repair = Repair(splitting or Splitting(scaled(reduced)), carrying(reduced, own))
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         mixture = _Mixture(
             problem,
@@ -95,14 +97,12 @@ class _Mixture:
 
     def proven(self, state: State) -> tuple[State, Proof]:
         """Both sides proven with the least part of strict states; as they were where none does."""
-        x, y = self.repair.balanced(state.load_factor, state.x), self.repair.following(state.u, state.y)
-        reach = self.prover.kinematic.reach(state.u, y)
+        x = self.repair.balanced(state.load_factor, state.x)
         static, prover = self._static_part(state.load_factor, x), self.prover
-        kinematic, v, z = self._opened(reach, self._spare(state.load_factor, x))
+        kinematic, u, y, v, z = self._kinematic_part(state, self._spare(state.load_factor, x))
         lower, upper, again = (-np.inf, ""), (np.inf, ""), (True, True)
         for _ in range(ROUNDS):
-            a, u = state.load_factor, state.u
-            mixed = State(a, state.x, u, state.y)
+            a, mixed = state.load_factor, state
             if static <= MOST:
                 mixed = replace(mixed, load_factor=(1.0 - static) * a, x=x + static * (self.inner - x))
             if kinematic <= MOST:
@@ -130,10 +130,7 @@ class _Mixture:
     def _static_part(self, load_factor: float, x: Array) -> float:
         """Least part of the inner stresses that pays for what x needs; infinite where they have no room."""
         reach = self.prover.static.reach(load_factor, x)
-        lack = _lack(reach)
-        gain = (self.prover.margin - reach.room)[lack > 0.0]
-        parts = np.where(gain > 0.0, lack[lack > 0.0] / gain, np.inf)
-        return float(parts.max(initial=0.0))
+        return _part(_lack(reach), self.prover.margin - reach.room)
 
     def _spare(self, load_factor: float, x: Array) -> Array:
         """Opening of every joint, the like of which is found in few rounds, that costs next to no width.
@@ -147,25 +144,37 @@ class _Mixture:
         size = max(abs(load_factor), EPS)
         return SPARE * (size / cost if cost > size else 1.0) * less
 
-    def _opened(self, reach: Reach, spare: Array) -> tuple[float, Array, Array]:
-        """Part, rates and multipliers of a mechanism that opens every joint by what its multipliers lack.
+    def _kinematic_part(self, state: State, spare: Array) -> tuple[float, Array, Array, Array, Array]:
+        """Part, rates and multipliers of a mechanism that opens joints by what those of the state lack.
 
-        It opens none by less than `spare`. The part is infinite where there is no such mechanism.
+        It opens none by less than `spare`. Before it come the part, infinite where there is no such
+        mechanism, and the state's own rates and multipliers: what does not move in it stays, exactly.
         """
-        p, lack = self.own, _lack(reach)
+        p, u, y = self.own, state.u, self.repair.following(state.u, state.y)
+        lack = _lack(self.prover.kinematic.reach(u, y))
         if not self.opened:
             amount = np.zeros(p.F.shape[0])
             amount[p.cones.heads] = np.maximum(lack, spare)
             self.opened.append(self.repair.opened(amount))
-        u, y = self.opened[0]
-        room = p.cones.margin(y)
-        return float((lack / room).max(initial=0.0)) if room.min() > 0.0 else np.inf, u, y
+        v, z = self.opened[0]
+        moving = np.repeat(v.reshape(-1, 6).any(axis=1), 6)
+        if not moving.all():
+            opens = np.bincount(p.row_interface, z != 0.0, len(p.interfaces)) > 0
+            u, y = u * moving, self.repair.following(u * moving, y * opens[p.row_interface])
+            lack = _lack(self.prover.kinematic.reach(u, y))
+        return _part(lack, p.cones.margin(z)), u, y, v, z
 
 
 def _lack(reach: Reach) -> Array:
     """What each linear row and each cone lacks of the room that is needed."""
     lack = np.maximum(NEEDED * reach.need - reach.room, 0.0)
     return np.where(np.isnan(lack), np.inf, lack)
+
+
+def _part(lack: Array, gain: Array) -> float:
+    """Least part of a state with that `gain` that makes up for all that is lacking; infinite if none does."""
+    lack, gain = lack[lack > 0.0], gain[lack > 0.0]
+    return float(np.where(gain > 0.0, lack / gain, np.inf).max(initial=0.0))
 
 
 def _polished(

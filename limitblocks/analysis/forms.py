@@ -66,6 +66,39 @@ class Stresses:
         constraints = [balance @ v == loads[self.balanced], *bounded, *inside]
         return Program(cp.Problem(cp.Minimize(-first[0] @ v), constraints), (v,))
 
+    def carrying(self) -> Program:
+        """Joints that can be strictly within yield under the dead loads: t_i = 1, the others 0.
+
+        Largest sum of t_i <= 1 of stresses that carry k times the dead loads, k >= 1, with F x + k g - t room
+        in K (Freund, Roundy & Todd 1985, Identifying the set of always-active constraints in a system of
+        linear inequalities by a single linear program). Variable: k, t (m,) and x.
+        """
+        p, loads = self.problem, self.problem.dead[self.balanced]
+        m, rows = len(p.problem.interfaces), np.arange(len(p.g))
+        lost = sparse.csr_array((-p.margin, (rows, p.problem.row_interface)), (len(rows), m))
+        A = sparse.hstack([sparse.csr_array(p.g[:, None]), lost, p.F], format="csr")
+        free = [sparse.csr_array((len(loads), m)), p.C.T]
+        balance = sparse.hstack([sparse.csr_array(-loads[:, None]), free[0], free[1][self.balanced]])
+        v = cp.Variable(A.shape[1])
+        first = sparse.eye_array(1 + m, A.shape[1], format="csr")  # k and t
+        least = first @ v + np.append(-1.0, np.zeros(m)) >= 0.0
+        most = -first[1:] @ v + np.ones(m) >= 0.0
+        cost = np.append(0.0, np.ones(m)) @ first
+        constraints = [sparse.csr_array(balance) @ v == 0.0 * loads, least, most, *map_in_cone(A, v, p.cones)]
+        return Program(cp.Problem(cp.Minimize(-cost @ v), constraints), (v,))
+
+    def opening(self, amount: Array) -> Program:
+        """The same of mechanisms that open joints by t_i of the `amount` (R,). Variable: t (m,), u and y."""
+        p, (R, m) = self.problem, (len(self.problem.g), len(self.problem.problem.interfaces))
+        lost = sparse.csr_array((-amount, (np.arange(R), p.problem.row_interface)), (R, m))
+        flow = sparse.hstack([sparse.csr_array((p.C.shape[0], m)), p.C, p.F.T], format="csr")
+        rows = sparse.hstack([lost, sparse.csr_array((R, p.C.shape[1])), sparse.eye_array(R)], format="csr")
+        v = cp.Variable(flow.shape[1])
+        t = sparse.eye_array(m, flow.shape[1], format="csr")
+        ends = [t @ v >= 0.0, -t @ v + np.ones(m) >= 0.0]
+        constraints = [flow @ v == np.zeros(p.C.shape[0]), *ends, *map_in_cone(rows, v, p.cones)]
+        return Program(cp.Problem(cp.Minimize(-(np.ones(m) @ t) @ v), constraints), (v,))
+
     @cached_property
     def balanced(self) -> Indices:
         """Equations of equilibrium with any number in them: rates out of a plane have none."""

@@ -38,3 +38,10 @@ def limit_state(programs: Programs, plane: Planar | None) -> tuple[State, str] |
         return None
     state = programs.form.problem.in_problem(state)
     return (state if plane is None else plane.lifted(state)), solver.name + where
+
+
+def in_units_of(programs: Programs, problem: LimitProblem, state: State) -> tuple[Programs, ...]:
+    """Return the program in stresses in units of a state of the whole problem; none where they are so."""
+    plane = in_plane(problem)
+    measured = programs.form.problem.measured(state if plane is None else plane.averaged(state))
+    return () if measured is None else (Programs(Stresses(measured, refined=True)),)

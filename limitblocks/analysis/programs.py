@@ -203,7 +203,8 @@ def _number(value: Array | None, shape: tuple[int, ...]) -> Array:
 
 def remeasured(problem: LimitProblem, state: State) -> LimitProblem | None:
     """The problem in units of what acts on its blocks in `state`; None where its units are so already."""
-    acting = np.maximum(Measure(problem, state).block, LEAST)
+    acting = Measure(problem, state).block
+    acting = np.where(acting == 0.0, 1.0, np.maximum(acting, LEAST))  # nothing is measured by nothing
     if acting.max() <= COARSER**2 and acting.min() >= 1 / COARSER:
         return None
     return problem.measured(acting * problem.units.block_force)

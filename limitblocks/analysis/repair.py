@@ -11,9 +11,10 @@ from functools import cached_property
 
 import numpy as np
 
-from limitblocks.analysis.scales import compatible_with
+from limitblocks.analysis.interior import opening_where_it_can
+from limitblocks.analysis.scales import Projection, compatible_with
 from limitblocks.analysis.splitting import Splitting
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Flags, Indices
 from limitblocks.problem import LimitProblem
 from limitblocks.problem.plane import Planar
 
@@ -22,15 +23,20 @@ EVERYWHERE = 1e-2  # of the joint that lacks most: the least that a joint is ope
 
 @dataclass(frozen=True, eq=False)
 class Repair:
-    """Repairs of states in units of the problem."""
+    """Repairs of states in units of the problem; joints where the stresses do not `carry` (s,) have none."""
 
     splitting: Splitting
+    carry: Flags
 
     def balanced(self, load_factor: float, x: Array) -> Array:
         """Return the nearest stresses that balance the loads, to rounding."""
         p = self.splitting.p
         loads = p.dead + load_factor / p.load_factor * p.live
-        return p.stress * self.splitting.projection.onto(loads, x / p.stress)
+        return p.stress * self._onto.onto(loads, self.carry * x / p.stress)
+
+    @cached_property
+    def _onto(self) -> Projection:
+        return self.splitting.at(self.carry)
 
     def following(self, u: Array, y: Array) -> Array:
         """Return the nearest multipliers that satisfy the flow rule with the rates, to rounding."""
@@ -46,7 +52,7 @@ class Repair:
         p = self.splitting.p
         there = amount / p.multiplier
         there[p.cones.heads] = np.maximum(there[p.cones.heads] / there.max(), EVERYWHERE)
-        found = self.splitting.mechanism(there)
+        found = self.splitting.mechanism(there) or opening_where_it_can(self.splitting, there)
         if found is None:
             return np.full_like(p.dead, np.nan), np.full_like(amount, np.nan)
         u, y = found

@@ -18,7 +18,7 @@ import numpy as np
 from scipy import sparse
 
 from limitblocks.analysis.scales import Projection, Scaled, compatible
-from limitblocks.arrays import Array, owned
+from limitblocks.arrays import Array, Flags, owned
 from limitblocks.problem import LimitProblem
 
 ROUNDS = 200
@@ -44,6 +44,13 @@ class Splitting:
         weights = inverse_by_interfaces(self.p.problem, square)
         weights.eliminate_zeros()  # between the points of an interface
         return Projection(self.p.C, weights)
+
+    def at(self, carries: Flags) -> Projection:
+        """Onto equilibrium, by the stresses that carry anything (s,); the others keep what they have."""
+        if carries.all():
+            return self.projection
+        kept = sparse.diags_array(1.0 * carries)
+        return Projection(self.p.C, sparse.csr_array(kept @ self.projection.weights @ kept))
 
     def stresses(self) -> Array | None:
         """Return stresses strictly within yield under the dead loads, (s,); None where none were found."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from limitblocks.analysis.nonassociated.without_shear import load_factor_without_shear
 from limitblocks.analysis.programs import ROUNDS, jamming_program, solved, solvers
-from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved
+from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved, unpressed
 from limitblocks.arrays import Array
 from limitblocks.errors import UnlimitedLoad
 from limitblocks.evidence.residuals import Residuals, static_residuals
@@ -40,8 +40,10 @@ def explain(problem: LimitProblem, dead: Array) -> None:
             (x,) = solved(jamming_program(measured), solver).values
             if not np.isfinite(x).all():
                 break
-            x = measured.stress * balanced(measured, measured.dead, x)
-            if Residuals(static_residuals(loaded, 0.0, x + CERTIFIED * dead)).worst.value <= CERTIFIED:
+            ways = balanced(measured, measured.dead, x), unpressed(measured, measured.dead, x)
+            for x in (measured.stress * way for way in ways if way is not None):
+                if Residuals(static_residuals(loaded, 0.0, x + CERTIFIED * dead)).worst.value > CERTIFIED:
+                    continue
                 jammed = np.isinf(load_factor_without_shear(problem, limited=False)[0])
                 raise UnlimitedLoad(JAMMED if jammed else UNLIMITED)
-            measured = measured.measured(unmoved(problem, 0.0, x))
+            measured = measured.measured(unmoved(problem, 0.0, measured.stress * ways[0]))

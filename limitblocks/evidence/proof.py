@@ -130,8 +130,16 @@ class Prover:
     def lower(self, state: State, reserve: float) -> tuple[float, str]:
         """The lower bound that the stresses prove, and why there is none."""
         reach = self.static.reach(state.load_factor, state.x).times(reserve)
-        bound = float(state.load_factor / self.problem.units.live) if reach.proven else -np.inf
-        return bound, _why("lower bound", "stresses", self.problem, reach)
+        p, ways = self.problem, self.static
+        if reach.proven:
+            return float(state.load_factor / p.units.live), ""
+        if len(ways.poor) and np.isinf(reach.change).any():
+            name, block = p.interfaces[ways.tree.interface[ways.poor[0]]], p.blocks[ways.poor[0]]
+            why = f"{name}, such as a joint without friction, does not carry all that rounding leaves at"
+            return -np.inf, f"no lower bound proven: {why} {block}"
+        dead = self.margin[_worst(reach)] <= 0.0
+        at_yield = ", where the stresses under the dead loads are at yield, too" if dead else ""
+        return -np.inf, _why("lower bound", "stresses", p, reach) + at_yield
 
     def upper(self, state: State, reserve: float) -> tuple[float, str]:
         """The upper bound that the mechanism proves, and why there is none."""
@@ -170,6 +178,10 @@ def _why(bound: str, what: str, problem: LimitProblem, reach: Reach) -> str:
     """Why a bound is not proven: the interface that lacks most."""
     if reach.proven:
         return ""
-    lack = np.nan_to_num(reach.need - reach.room, nan=np.inf)
-    name = problem.interfaces[problem.member_interface[int(lack.argmax())]]
+    name = problem.interfaces[problem.member_interface[_worst(reach)]]
     return f"no {bound} proven: exact {what} may lie outside the cone at {name}"
+
+
+def _worst(reach: Reach) -> int:
+    """The linear row or cone that lacks most."""
+    return int(np.nan_to_num(reach.need - reach.room, nan=np.inf).argmax())

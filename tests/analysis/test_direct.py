@@ -117,6 +117,23 @@ def test_what_the_first_program_leaves_open_is_proven_by_the_second(models, monk
     assert left[0] > left[1] == 0
 
 
+def test_a_small_load_factor_is_proven_in_the_units_of_its_solution(monkeypatch):
+    """The upper one of three stones slides with the one on ice below it, at the friction of that, 1e-4."""
+    stones = [lb.Block.box("floor", (4, 4, 0.3), (0, 0, -0.15))]
+    sizes = [(1.0 - 0.1 * k, 1.0 - 0.1 * k, 0.2) for k in range(3)]
+    stones += [lb.Block.box(f"{k}", sizes[k], (0, 0, 0.1 + 0.2 * k), 2e4) for k in range(3)]
+    found = [*lb.find_interfaces(stones, lb.PointContact(1.0))]
+    found[1] = replace(found[1], joint=lb.PointContact(1e-4))
+    dead, live = lb.self_weight(), lb.mass_proportional((0.6, 0.8, 0.0))
+    bounds = import_module("limitblocks.analysis.bounds")
+    monkeypatch.setattr(bounds, "_with_care", None)
+    widths = []
+    for again in (bounds.in_units_of, lambda *_: ()):
+        monkeypatch.setattr(bounds, "in_units_of", again)
+        widths.append(lb.bounds(lb.Model(stones, ["floor"], found, dead, live)).proof.width)
+    assert widths[0] < 1e-8 < widths[1]
+
+
 def in_plane_of(joint, courses, length):
     """Pushed along; lengths in stones."""
     return structures.wall(joint, length=0.4 * length, courses=courses)

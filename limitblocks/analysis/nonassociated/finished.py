@@ -150,10 +150,9 @@ def _of_load_factor(
 
 def _remarks(model: Model, state: State, flow: Flow, how: str, tolerance: float) -> tuple[str, ...]:
     """What is said of a state, and of `how` a solution was found."""
-    problem, off = flow.problem, off_load_path(how)
+    problem = flow.problem
     return (
-        *off,
-        *(idle_words(model.problem) if off else ()),
+        *off_load_path(how),
         *given_power(flow, state, tolerance),
         *locked_shear(flow, state),
         *locked_tension(model, flow, state),

@@ -15,6 +15,7 @@ from limitblocks.analysis.nonassociated.in_the_plane import (
     flow_in_plane,
     found_in_plane_or_whole,
 )
+from limitblocks.analysis.nonassociated.left_out import without_what_is_idle
 from limitblocks.analysis.nonassociated.loading import CLIMBS
 from limitblocks.analysis.nonassociated.means import MEANS, Means, checked_means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop, told
@@ -128,11 +129,16 @@ def nonassociated(
     refuse_unlimited(flow, enclosing.associated)
     history, record = recorder(progress)
     said: tuple[str, ...] = ()
+    paths = None if way is Method.FIXED_POINT else means
+    same = partial(nonassociated, dilatancy=dilatancy, turning=turning, tolerance=tolerance, method=way)
+    same = partial(same, means=paths, progress=record, confirm=False)
     state = solving_state(model, flow, enclosing, start, tolerance)
     if state is not None:
         how = "the bounds, of which flow is associated" if start is None else "the state given to start from"
     elif (proven := state_without_solution(flow)) is not None:
         state, how = proven, "statics alone"
+    elif start is None and (without := without_what_is_idle(model, flow, tolerance, same)):
+        state, how = without
     else:
         first = enclosing.bounds if way is Method.FIXED_POINT and start is None else start
 
