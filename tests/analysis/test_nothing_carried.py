@@ -8,6 +8,7 @@ from stones import model_of
 
 import limitblocks as lb
 from limitblocks import structures
+from limitblocks.analysis.interior import _without_room, carried
 from limitblocks.analysis.repair import Repair
 from limitblocks.analysis.scales import scaled
 from limitblocks.analysis.splitting import Splitting
@@ -164,3 +165,15 @@ def test_stones_of_no_weight_apart_from_all_loads_change_nothing():
     stones += [box(f"light {k}", (0.6, 0.6, 0.5), (1, 0, 0.25 + 0.5 * k), 0.0) for k in range(2)]
     model = model_of(stones, ["floor"], lb.PointContact(0.6))
     assert lb.nonassociated(model).load_factor == pytest.approx(0.6, rel=CLOSE)
+
+
+def test_what_rounding_leaves_is_no_room():
+    """Points that bear 1e-20 of a weight are within Coulomb's cone by .6 of that, which means nothing."""
+    problem = light_stones(lb.PointContact(0.6)).problem
+    x = carried(problem)
+    light = np.array(["light" in name for name in problem.interfaces])
+    assert np.array_equal(
+        _without_room(problem, x), light | ["beside" in name for name in problem.interfaces]
+    )
+    faint = np.where(x == 0.0, np.tile([0.0, 0.0, -1e-20], len(x) // 3), x)
+    assert np.array_equal(_without_room(problem, faint), _without_room(problem, x))
