@@ -111,7 +111,7 @@ def steepest(assembly: Assembly) -> tuple[Array, float]:
     found = linear_program(
         -dead / np.abs(dead).sum(),
         -rows[2::3][rigid],
-        np.maximum(gap[rigid], 0.0),
+        np.where(assembly.closed, 0.0, gap)[rigid],  # of a tower HiGHS ends with Status 4 by their rounding
         sparse.vstack([rows[along], rests]),
         np.zeros(len(along) + 1),
         np.stack([-reach, reach], axis=1),

@@ -224,3 +224,12 @@ def test_closing_motions_are_exact_where_rows_are_nearly_dependent():
     s, c = np.geomspace(1e-6, 5.0, 20), draw.normal(size=20)
     x = _least_squares(sparse.csr_array(u * s @ v.T), u @ c)
     assert x == pytest.approx(v @ (s / (s**2 + DAMP**2) * c), abs=1e-10 * np.abs(x).max())
+
+
+def test_what_counts_as_closed_is_no_way_to_fall():
+    """A block of 1 m half of the gap above its base that counts as none: over TURN it would be 1e-7."""
+    model = lb.structures.block(JOINT, width=0.2, height=1.0)
+    up = np.outer(model.free, [0.0, 0.0, 5.0 * CLOSED, 0.0, 0.0, 0.0])
+    there = moved(assembly_of(model), up)
+    assert there.closed.all()
+    assert steepest(there)[1] == pytest.approx(0.0, abs=1e-10)
