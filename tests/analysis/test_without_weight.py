@@ -126,6 +126,24 @@ def test_the_way_is_that_of_the_model_without_what_carries_nothing():
     assert not found.remarks
 
 
+def test_who_interrupts_on_that_way_is_given_the_state_reached():
+    light = lb.Block.box("light", (0.5, 0.5, 0.3), (0, 0, 2.55), 0.0)
+
+    def stop(_):
+        raise KeyboardInterrupt
+
+    with pytest.raises(lb.NotConverged, match=r"^interrupted") as failed:
+        lb.nonassociated(model_of([*portal_stones(), light], ["ground"], JOINTS[1]), progress=stop)
+    assert 0.0 < failed.value.result.load_factor < 0.25  # at which it falls
+
+
+def test_what_loads_name_is_not_left_out():
+    model = model_of(stones(1), ["ground"], lb.PointContact(0.6))
+    pair = [lb.loads.force("light 0", (0, 0, down), at=(0.1, 0, 0.75)) for down in (-1.0, 1.0)]
+    both = replace(model, dead=lb.self_weight() + pair[0] + pair[1])
+    assert lb.nonassociated(both).load_factor == pytest.approx(0.6, rel=1e-6)
+
+
 @pytest.mark.parametrize("force", [0.0, 1e-8])
 def test_a_force_on_a_block_that_nothing_loads_is_no_rounding(force):
     model = model_of(stones(1), ["ground"], lb.OrdunaLourenco(0.6))

@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from limitblocks.analysis.interior import carried, carrying
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED
 from limitblocks.analysis.polish import polish
 from limitblocks.errors import ModelError, NotConverged, SolveError
-from limitblocks.evidence.ending import Status
 from limitblocks.evidence.mechanism import find_mechanism
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.evidence.results import Nonassociated
@@ -50,7 +50,7 @@ def without_what_is_idle(
     """Return a solution that an answer of the model without its idle stones leads to, and how it was found.
 
     The idle stones bear no stresses; a linear program finds how they move along. None where that is no
-    solution within the tolerance.
+    solution within the tolerance, but for one that the user interrupts.
     """
     smaller = without_idle(model)
     if smaller is None:
@@ -58,9 +58,7 @@ def without_what_is_idle(
     try:
         found = answer(smaller)
     except NotConverged as error:
-        if error.result.status is Status.INTERRUPTED:
-            raise KeyboardInterrupt from None
-        return None
+        found = error.result
     except SolveError:
         return None
     p, place = flow.problem, {name: k for k, name in enumerate(flow.problem.interfaces)}
@@ -69,4 +67,5 @@ def without_what_is_idle(
         x[p.stress_interface == place[name]] = found.generalised_stresses[own.stress_interface == k]
     x /= p.stress_units
     state = polish(flow, State(found.load_factor * p.units.live, x, *find_mechanism(flow, x)))
-    return (state, found.how) if mcp_residuals(flow, state).worst.value <= tolerance else None
+    ended = found.how.endswith(INTERRUPTED) or mcp_residuals(flow, state).worst.value <= tolerance
+    return (state, found.how) if ended else None
