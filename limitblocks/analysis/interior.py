@@ -45,7 +45,7 @@ def _carried(problem: LimitProblem, splitting: Splitting | None) -> Array | None
             continue
         x = p.stress * x if plane is None else np.asarray(plane.stresses @ (p.stress * x))
         with np.errstate(over="ignore", invalid="ignore"):  # friction 1e-300: nothing is within
-            within = not _without_room(problem, x)[problem.stress_interface[carrying(problem, x)]].any()
+            within = not (_without_room(problem, x) & ~_bare(problem, x)).any()
             if within and Residuals(static_residuals(problem, 0.0, x)).worst.value <= TOLERANCE:
                 return read_only(x)
     return None
@@ -98,9 +98,15 @@ def opening_where_it_can(splitting: Splitting, amount: Array) -> tuple[Array, Ar
 
 def carrying(problem: LimitProblem, x: Array) -> Flags:
     """Return whether each stress of x (s,) is one of a joint that carries anything, or has room for it."""
-    k = problem.stress_interface
-    bare = np.bincount(k, x != 0.0, len(problem.interfaces)) == 0
-    return np.asarray(~(bare & _without_room(problem, x))[k])
+    bare = _bare(problem, x)
+    if bare.any():
+        bare &= _without_room(problem, x)
+    return np.asarray(~bare[problem.stress_interface])
+
+
+def _bare(problem: LimitProblem, x: Array) -> Flags:
+    """Whether all stresses (s,) of each interface are zero, shape (m,)."""
+    return np.asarray(np.bincount(problem.stress_interface, x != 0.0, len(problem.interfaces)) == 0)
 
 
 def _without_room(problem: LimitProblem, x: Array) -> Flags:
