@@ -151,8 +151,9 @@ def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arra
             good.append((pair, proof))
             if pair.width(proof) <= (tolerance if enough else close):
                 break
-        if programs is last:
+        if programs is last:  # where a small load factor is wide, accurate is not enough
             forms += in_units_of(last, problem, pair.state)
+            accurate = 0.0
     return (dead, *min(good, key=lambda one: one[0].width(one[1]))) if good else None
 
 

@@ -204,7 +204,7 @@ def test_verification_of_other_loads(facade, live, words):
         (lambda wall: passive_fill(wall, 8.0, unit_weight=18e3, coefficient=3.0, blocks="wall"),
          "blocks is 'wall', expected a sequence of str"),
         (lambda wall: passive_fill(wall, 8.0, unit_weight=18e3, coefficient=3.0, along=(0, 0, 1)),
-         "direction along the deck is (0, 0, 1), expected a horizontal one"),
+         "direction along the deck is (0.0, 0.0, 1.0), expected a horizontal direction"),
         (lambda wall: Vehicle((1e3, 2e3), (1.0, 2.5)), "the first axle is 1 m from itself, expected 0"),
         (lambda wall: adequacy(wall, 1.5), "factors is a float, expected PartialFactors"),
         (lambda wall: PartialFactors(1.35, -1.5, 2.0), "gamma_Q is -1.5, expected a finite number > 0"),
