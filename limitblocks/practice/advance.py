@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, as_typed, read_only, real
+from limitblocks.arrays import Array, Flags, as_typed, read_only, real
 from limitblocks.errors import ModelError
 from limitblocks.evidence.relative_rates import largest_rate
 from limitblocks.geometry import Block
@@ -18,7 +18,7 @@ from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Mome
 from limitblocks.mechanics.loads.load import Load, vector
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import Control
-from limitblocks.practice.contact import CLOSED, DisplacedContacts, Truths, bond
+from limitblocks.practice.contact import CLOSED, DisplacedContacts, bond
 from limitblocks.practice.displaced import Assembly
 from limitblocks.practice.rejoined import closed_up, joined, meet, parallel, slid
 from limitblocks.shown import coordinates
@@ -150,7 +150,7 @@ def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assem
     return None
 
 
-def _parted(assembly: Assembly, sliding: Truths, least: float) -> tuple[Assembly, tuple[str, ...]]:
+def _parted(assembly: Assembly, sliding: Flags, least: float) -> tuple[Assembly, tuple[str, ...]]:
     """The structure without the bond of the contacts that have opened or slide, and a sentence for each."""
     own = assembly.contacts
     lost = (sliding | own.any(own.ways[:, 2] > least)) & [bool(bond(one.joint)) for one in own.interfaces]
@@ -161,7 +161,7 @@ def _parted(assembly: Assembly, sliding: Truths, least: float) -> tuple[Assembly
     return Assembly(joined(assembly, contacts), contacts), said
 
 
-def _motion(assembly: Assembly, rates: Array) -> tuple[Truths, Truths, Truths]:
+def _motion(assembly: Assembly, rates: Array) -> tuple[Flags, Flags, Flags]:
     """Which corners (k,) are closed and stay so, which contacts (m,) slide, and which are ties that yield."""
     own, least = assembly.contacts, STILL * largest_rate(assembly.model, rates)
     speeds = [
@@ -194,7 +194,7 @@ def _last(own: DisplacedContacts, opens: Array) -> Array:
     return np.where(own.pressed & ~own.tied, last, 0.0)
 
 
-def _at_odds(assembly: Assembly, rates: Array, held: Truths, sliding: Truths) -> Truths:
+def _at_odds(assembly: Assembly, rates: Array, held: Flags, sliding: Flags) -> Flags:
     """Taut ties (m,) that crushing does not lengthen but the motion does: they go with the motion.
 
     A joint that crushes turns about the inner edge of what is crushed, in the finite motion about the toe.

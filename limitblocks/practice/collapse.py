@@ -150,9 +150,8 @@ def _bears(assembly: Assembly, found: Settlement) -> bool:
     moving = found.settling.supports
     forces = (found.result or found.bounds).stress_resultants
     resultant = np.zeros(3)
-    for own, force in zip(
-        assembly.contacts[assembly.tight].interfaces, forces, strict=False
-    ):  # guides come last
+    tight = assembly.contacts[assembly.tight].interfaces
+    for own, force in zip(tight, forces, strict=False):  # guides come last
         sign = (own.block_i in moving) - (own.block_j in moving)
         resultant += sign * force[:3] @ own.axes
     return float(np.linalg.norm(resultant)) > CLOSED * found.settling.unit

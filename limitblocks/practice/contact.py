@@ -8,9 +8,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from limitblocks.arrays import Array, Indices, repeated
+from limitblocks.arrays import Array, Flags, Indices, repeated
 from limitblocks.geometry import Block, Interface
 from limitblocks.geometry.ends import ends_of
 from limitblocks.joints import Dowel, Tie
@@ -21,8 +20,6 @@ RIM = 1e-6  # of the size of a joint: a corner as near to the rim of a face is a
 EVEN = 1e-3  # of a unit normal: rims that face across a hinge as much alike end together
 
 BOND = ("cohesion", "tensile_strength")  # strengths of a joint that hold until it moves
-
-Truths = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +40,7 @@ class DisplacedContacts:
     rims_i, rims_j : Array, shape (k, s, 2)
         The rims of both faces at the corners (:func:`~.resting.rims_at`), as the contact was last
         :func:`seated`; NaN at corners that were open.
-    pressed : Truths, shape (m,)
+    pressed : Flags, shape (m,)
         Which carried a force at the last answer: these do not slide while the structure falls.
     taut : Array, shape (m,)
         Distance of the anchors of a tie at which it is taut, m: as it was first, and more once it has
@@ -58,7 +55,7 @@ class DisplacedContacts:
     axes_j: Array
     rims_i: Array
     rims_j: Array
-    pressed: Truths
+    pressed: Flags
     taut: Array
 
     @property
@@ -70,7 +67,7 @@ class DisplacedContacts:
     def __len__(self) -> int:
         return len(self.interfaces)
 
-    def __getitem__(self, which: int | Sequence[int] | Indices | Truths) -> DisplacedContacts:
+    def __getitem__(self, which: int | Sequence[int] | Indices | Flags) -> DisplacedContacts:
         """Return some of the contacts, in any order."""
         numbers = np.atleast_1d(np.arange(len(self))[which])
         part, position = repeated(np.bincount(self.of)[numbers])
@@ -80,12 +77,12 @@ class DisplacedContacts:
         return DisplacedContacts(interfaces, **taken)
 
     @cached_property
-    def tied(self) -> Truths:
+    def tied(self) -> Flags:
         """Which are ties, shape (m,)."""
         return np.array([isinstance(own.joint, Tie) for own in self.interfaces], dtype=bool)
 
     @cached_property
-    def rigid(self) -> Truths:
+    def rigid(self) -> Flags:
         """Where a gap never turns negative, shape (m,): not of a dowel, which keeps none."""
         return np.array([not isinstance(own.joint, Dowel) for own in self.interfaces])
 
@@ -111,7 +108,7 @@ class DisplacedContacts:
         return np.cross(self.axes_i[:, 2], self.axes_j[:, 2])
 
     @cached_property
-    def on_face_i(self) -> Truths:
+    def on_face_i(self) -> Flags:
         """Which corners of block j rest on the face of block i, shape (k,); the others are of i on that of j.
 
         The faces come nearer across the hinge. The one whose rim there faces that way more ends, and rests on
@@ -160,15 +157,15 @@ class DisplacedContacts:
         """Least gap of each contact, m, shape (m,)."""
         return np.minimum.reduceat(self.ways[:, 2], self.first)
 
-    def any(self, corners: Truths) -> Truths:
+    def any(self, corners: Flags) -> Flags:
         """Which contacts have any of the corners (k,), shape (m,)."""
         return np.logical_or.reduceat(corners, self.first)
 
-    def yielded(self, which: Truths) -> DisplacedContacts:
+    def yielded(self, which: Flags) -> DisplacedContacts:
         """Return the contacts, some ties (m,) as long as they are; a large step may have shortened one."""
         return replace(self, taut=self.taut - np.where(which, np.minimum(self.least, 0.0), 0.0))
 
-    def parted(self, which: Truths) -> DisplacedContacts:
+    def parted(self, which: Flags) -> DisplacedContacts:
         """Return the contacts, some (m,) of them without their bond."""
         bare = list(self.interfaces)
         for k in np.flatnonzero(which):

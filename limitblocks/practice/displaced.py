@@ -11,11 +11,11 @@ from scipy.spatial import ConvexHull
 from scipy.spatial.distance import pdist
 from scipy.spatial.transform import Rotation
 
-from limitblocks.arrays import Array, Indices, read_only, sums
+from limitblocks.arrays import Array, Flags, Indices, read_only, sums
 from limitblocks.geometry import Block
 from limitblocks.model import Model
 from limitblocks.practice.carried_loads import carried_load, prestress
-from limitblocks.practice.contact import CLOSED, DisplacedContacts, Truths, contacts_of
+from limitblocks.practice.contact import CLOSED, DisplacedContacts, contacts_of
 from limitblocks.practice.resting import resting_axes
 
 
@@ -38,7 +38,7 @@ class Assembly:
         return Motion(centres, centres, np.tile(np.eye(3), (len(centres), 1, 1)))
 
     @cached_property
-    def closed(self) -> Truths:
+    def closed(self) -> Flags:
         """Which corners of the contacts are closed, shape (k,)."""
         return self.contacts.ways[:, 2] <= 10.0 * CLOSED * self.size
 

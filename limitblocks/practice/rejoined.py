@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Flags, Indices
 from limitblocks.errors import ModelError, SolveError
 from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.geometry import find_contacts
@@ -15,7 +15,7 @@ from limitblocks.geometry.neighbours import neighbours
 from limitblocks.geometry.overlap import find_overlaps
 from limitblocks.joints import Dowel
 from limitblocks.model import Model
-from limitblocks.practice.contact import CLOSED, DisplacedContacts, Truths, contacts_of, seated, together
+from limitblocks.practice.contact import CLOSED, DisplacedContacts, contacts_of, seated, together
 from limitblocks.practice.displaced import Assembly, Motion, moved, placed
 from limitblocks.practice.resting import PARALLEL
 from limitblocks.practice.trimmed import trimmed
@@ -26,7 +26,7 @@ ROUNDS = 20  # of Newton's method for the gaps; it converges quadratically
 
 
 def closed_up(
-    assembly: Assembly, held: Truths, sliding: Truths, displacements: Array | None = None
+    assembly: Assembly, held: Flags, sliding: Flags, displacements: Array | None = None
 ) -> tuple[Assembly, float]:
     """Return the nearest structure in which the corners `held` have no gap, and the largest that is left, m.
 
@@ -56,7 +56,7 @@ def closed_up(
 
 
 def _closed(
-    contacts: DisplacedContacts, motion: Motion, wanted: Truths, scale: Array, barred: Array
+    contacts: DisplacedContacts, motion: Motion, wanted: Flags, scale: Array, barred: Array
 ) -> tuple[Motion, Array]:
     """Newton's method for the ways `wanted`, shape (k, 3): where blocks then are, and those ways, m."""
     last = np.inf
@@ -110,7 +110,7 @@ def _apart(assembly: Assembly, reach: float) -> Indices:
     return near[[tuple(pair) not in joined for pair in near.tolist()]]
 
 
-def slid(assembly: Assembly, sliding: Truths) -> tuple[Assembly, tuple[str, ...]]:
+def slid(assembly: Assembly, sliding: Flags) -> tuple[Assembly, tuple[str, ...]]:
     """Return the structure with the contacts that slide where they now are, and which were lost or found.
 
     Faces that slide flat on one another get the areas that they now share: one that shares none any more
@@ -178,7 +178,7 @@ def _shared(
     return [contacts_of(found, blocks)] if found else []
 
 
-def parallel(axes: Array, others: Array) -> Truths:
+def parallel(axes: Array, others: Array) -> Flags:
     """Whether the normals of two sets of axes (..., 3, 3), rows, are."""
     cosine = np.einsum("...a,...a", axes[..., 2, :], others[..., 2, :])
     return np.asarray(np.abs(cosine) > 1.0 - PARALLEL)
